@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+# OpenColorIO::OpenColorIO. Debian 12 installs OpenColorIO's own CMake package where CMake does not look, with a broken
+# prefix, so the library is found by its files.
+find_path(OpenColorIO_INCLUDE_DIR OpenColorIO/OpenColorIO.h)
+find_library(OpenColorIO_LIBRARY OpenColorIO)
+mark_as_advanced(OpenColorIO_INCLUDE_DIR OpenColorIO_LIBRARY)
+
+if(OpenColorIO_INCLUDE_DIR AND EXISTS "${OpenColorIO_INCLUDE_DIR}/OpenColorIO/OpenColorABI.h")
+  file(STRINGS "${OpenColorIO_INCLUDE_DIR}/OpenColorIO/OpenColorABI.h" opencolorio_version_line
+    REGEX "#define OCIO_VERSION_(FULL_)?STR +\"[0-9.]+")
+  string(REGEX MATCH "[0-9]+\\.[0-9]+\\.[0-9]+" OpenColorIO_VERSION "${opencolorio_version_line}")
+endif()
+
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(OpenColorIO
+  REQUIRED_VARS OpenColorIO_LIBRARY OpenColorIO_INCLUDE_DIR VERSION_VAR OpenColorIO_VERSION)
+
+if(OpenColorIO_FOUND AND NOT TARGET OpenColorIO::OpenColorIO)
+  add_library(OpenColorIO::OpenColorIO UNKNOWN IMPORTED)
+  set_target_properties(OpenColorIO::OpenColorIO PROPERTIES
+    IMPORTED_LOCATION "${OpenColorIO_LIBRARY}"
+    INTERFACE_INCLUDE_DIRECTORIES "${OpenColorIO_INCLUDE_DIR}")
+endif()

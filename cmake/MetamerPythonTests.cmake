@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+# Python tests as ctest entries, run by the pinned environment that script/bootstrap makes.
+
+set(METAMER_PYTHON "${PROJECT_SOURCE_DIR}/build/venv/bin/python" CACHE FILEPATH
+  "Python with the packages of script/requirements.txt")
+
+# metamer_python_test(<name> SCRIPT <file> [ARGS ...] [LABELS ...] [TIMEOUT seconds] [NO_SANITIZERS])
+# A script that exits 0 where it passes (unittest, or a plain program). It finds the build's programs in $METAMER_BIN,
+# its libraries in $METAMER_LIB and the measured tables in $METAMER_DATA. Exit code 77
+# means skipped. NO_SANITIZERS: leave it out of sanitizer builds (it loads a library into a plain Python, or takes
+# its time and checks nothing of the C++ that others do not).
+function(metamer_python_test name)
+  cmake_parse_arguments(arg "NO_SANITIZERS" "SCRIPT;TIMEOUT" "ARGS;LABELS" ${ARGN})
+  if(arg_NO_SANITIZERS AND METAMER_SANITIZERS)
+    return()
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 900)
+  endif()
+  get_filename_component(script "${arg_SCRIPT}" ABSOLUTE)
+  add_test(NAME ${name} COMMAND "${METAMER_PYTHON}" -B "${script}" ${arg_ARGS}
+    WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+  set_tests_properties(${name} PROPERTIES
+    TIMEOUT ${arg_TIMEOUT}
+    LABELS "python;${arg_LABELS}"
+    SKIP_RETURN_CODE 77
+    ENVIRONMENT "METAMER_DATA=${PROJECT_SOURCE_DIR}/data;METAMER_BIN=${CMAKE_RUNTIME_OUTPUT_DIRECTORY};METAMER_LIB=${CMAKE_LIBRARY_OUTPUT_DIRECTORY};MPLBACKEND=Agg")
+endfunction()

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/spectral/colorimetry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "metamer/spectral/input_error.h"
+
+namespace metamer::spectral {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double degrees(double radians) {
+  return radians * 180.0 / kPi;
+}
+double radians(double degrees) {
+  return degrees * kPi / 180.0;
+}
+
+/// CIE 015:2018, equations 8.4 and 8.5, in the exact fractions of its note.
+double lightnessResponse(double ratio) {
+  constexpr double kCut = (24.0 / 116.0) * (24.0 / 116.0) * (24.0 / 116.0);
+  return ratio > kCut ? std::cbrt(ratio) : 841.0 / 108.0 * ratio + 16.0 / 116.0;
+}
+
+/// Hue angle in 0 ... 360 degrees, 0 for neutrals.
+double hueDegrees(double a, double b) {
+  if (a == 0 && b == 0) {
+    return 0;
+  }
+  const double angle = degrees(std::atan2(b, a));
+  return angle < 0 ? angle + 360.0 : angle;
+}
+
+double pow7(double x) {
+  const double x3 = x * x * x;
+  return x3 * x3 * x;
+}
+
+/// sqrt(C^7 / (C^7 + 25^7)), the blue and chroma weighting that CIEDE2000 uses twice.
+double chromaWeight(double chroma) {
+  return std::sqrt(pow7(chroma) / (pow7(chroma) + pow7(25.0)));
+}
+
+}  // namespace
+
+Eigen::Vector3d response(const Spectrum& power, const Observer& observer) {
+  return observer.onDomain().transpose() * power.onDomain();
+}
+
+Eigen::Vector3d tristimulus(const Spectrum& reflectance, const Spectrum& light, const Observer& observer) {
+  const Eigen::Matrix<double, kDomainSize, 3> curves = observer.onDomain();
+  const DomainSamples power = light.onDomain();
+  const double white = curves.col(1).dot(power);
+  // The comparison also refuses NaN.
+  if (!(white > 0)) {
+    throw InputError(light.name(), "light", "", "gives observer '" + observer.name + "' no response in 380 to 780 nm");
+  }
+  return curves.transpose() * power.cwiseProduct(reflectance.onDomain()) / white;
+}
+
+Eigen::Vector2d chromaticity(const Eigen::Vector3d& xyz) {
+  const double sum = xyz.sum();
+  if (!(sum > 0)) {
+    return Eigen::Vector2d::Zero();
+  }
+  return xyz.head<2>() / sum;
+}
+
+Eigen::Vector3d xyzFromChromaticity(const Eigen::Vector2d& xy, double Y) {
+  return {xy.x() / xy.y() * Y, Y, (1.0 - xy.x() - xy.y()) / xy.y() * Y};
+}
+
+Eigen::Vector2d chromaticityUv(const Eigen::Vector3d& xyz) {
+  const double sum = xyz.x() + 15.0 * xyz.y() + 3.0 * xyz.z();
+  if (!(sum > 0)) {
+    return Eigen::Vector2d::Zero();
+  }
+  return {4.0 * xyz.x() / sum, 9.0 * xyz.y() / sum};
+}
+
+Eigen::Vector3d lab(const Eigen::Vector3d& xyz, const Eigen::Vector3d& white) {
+  const Eigen::Vector3d ratio = xyz.cwiseQuotient(white);
+  const double fx = lightnessResponse(ratio.x());
+  const double fy = lightnessResponse(ratio.y());
+  const double fz = lightnessResponse(ratio.z());
+  return {116.0 * fy - 16.0, 500.0 * (fx - fy), 200.0 * (fy - fz)};
+}
+
+double deltaE2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) {
+  // Sharma, Wu and Dalal 2005, equations 2 to 22.
+  const double meanChroma = (std::hypot(lab1[1], lab1[2]) + std::hypot(lab2[1], lab2[2])) / 2.0;
+  const double stretch = 1.0 + 0.5 * (1.0 - chromaWeight(meanChroma));
+  const double a1 = stretch * lab1[1];
+  const double a2 = stretch * lab2[1];
+  const double c1 = std::hypot(a1, lab1[2]);
+  const double c2 = std::hypot(a2, lab2[2]);
+  const double h1 = hueDegrees(a1, lab1[2]);
+  const double h2 = hueDegrees(a2, lab2[2]);
+
+  const bool neutral = c1 * c2 == 0;
+  // Exactly opposite hues count as 180 degrees apart whatever way the last bit of the two arc tangents fell: the
+  // formula is discontinuous there.
+  const bool opposite = a1 * lab2[2] == a2 * lab1[2];
+  const bool throughZero = std::abs(h1 - h2) > 180 && !opposite;
+  double hueStep = neutral ? 0 : h2 - h1;
+  if (throughZero) {
+    hueStep += hueStep > 0 ? -360 : 360;
+  }
+  const double lightnessDifference = lab2[0] - lab1[0];
+  const double chromaDifference = c2 - c1;
+  const double hueDifference = 2.0 * std::sqrt(c1 * c2) * std::sin(radians(hueStep / 2.0));
+
+  const double meanLightness = (lab1[0] + lab2[0]) / 2.0;
+  const double meanPrimeChroma = (c1 + c2) / 2.0;
+  double meanHue = h1 + h2;
+  if (!neutral) {
+    if (throughZero) {
+      meanHue += meanHue < 360 ? 360 : -360;
+    }
+    meanHue /= 2;
+  }
+
+  const double t = 1.0 - 0.17 * std::cos(radians(meanHue - 30.0)) + 0.24 * std::cos(radians(2.0 * meanHue)) +
+                   0.32 * std::cos(radians(3.0 * meanHue + 6.0)) - 0.20 * std::cos(radians(4.0 * meanHue - 63.0));
+  const double blueness = (meanHue - 275.0) / 25.0;
+  const double rotation = 30.0 * std::exp(-blueness * blueness);
+  const double lightnessOffset = (meanLightness - 50.0) * (meanLightness - 50.0);
+  const double sL = 1.0 + 0.015 * lightnessOffset / std::sqrt(20.0 + lightnessOffset);
+  const double sC = 1.0 + 0.045 * meanPrimeChroma;
+  const double sH = 1.0 + 0.015 * meanPrimeChroma * t;
+  const double rT = -std::sin(radians(2.0 * rotation)) * 2.0 * chromaWeight(meanPrimeChroma);
+
+  const double l = lightnessDifference / sL;
+  const double c = chromaDifference / sC;
+  const double h = hueDifference / sH;
+  // The rotation term can outweigh the squares by a rounding error between equal colours.
+  return std::sqrt(std::max(0.0, l * l + c * c + h * h + rT * c * h));
+}
+
+}  // namespace metamer::spectral

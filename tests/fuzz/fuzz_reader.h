@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_files.h"
+
+namespace metamer::spectral {
+
+/// Reads the bytes as every quantity. Whatever they are, the reader returns spectra that keep their promises, or throws
+/// InputError with one short line; anything else stops the fuzzer.
+template <typename Reader>
+void fuzzReader(const Reader& reader, const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  for (const SpectralQuantity quantity : {SpectralQuantity::SpectralPowerDistribution, SpectralQuantity::Sensitivity,
+                                          SpectralQuantity::Reflectance, SpectralQuantity::Transmittance}) {
+    try {
+      const std::vector<Spectrum> spectra = reader(text, "input", quantity);
+      if (spectra.empty()) {
+        std::abort();
+      }
+      for (const Spectrum& spectrum : spectra) {
+        if (!spectrum.onDomain().allFinite()) {
+          std::abort();
+        }
+      }
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      if (message.find('\n') != std::string::npos || message.size() > 400) {
+        std::abort();
+      }
+    }
+  }
+}
+
+}  // namespace metamer::spectral
