@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "metamer/sip/spectral_transform.h"
+
+namespace metamer::sip {
+
+/// A spectral transform as a two-dimensional table: fast, and exposure-invariant like the transform itself.
+///
+/// The transform is homogeneous of degree one, so it is known everywhere once it is known on the directions of RGB
+/// space. Directions are the faces of a cube in coordinates `p = cubeFromRgb * rgb`: a pixel is its largest |p| times
+/// a point of a face. Each face is a grid of root cells, each root cell a dense table of patches 2^depth by 2^depth.
+/// A patch is bicubic in the face's two coordinates, built from the transform's exact values and derivatives at its
+/// corners and checked between them. Where the transform is one matrix (no band clamped: most natural colours), the
+/// kernel skips the table and applies that matrix.
+///
+/// Plain buffers without pointers, ready to be copied to another device. Immutable after build.
+struct HomogeneousMap {
+  static constexpr int kFaceCount = 6;
+  static constexpr int kFrontFace = 4;  ///< +p[2]: every real colour; the others hold what is beyond all lights
+  static constexpr int kDepthBits = 3;
+  static constexpr int kMaximumDepth = 6;
+  static constexpr std::array<int, kFaceCount> kRootsPerSide = {8, 8, 8, 8, 32, 8};
+  /// What lies beyond all lights is continuous and bounded there, and needs no more.
+  static constexpr std::array<int, kFaceCount> kDepthLimit = {2, 2, 2, 2, kMaximumDepth, 2};
+  /// Per patch: for each power j of v (0 ... 3), for each power i of u (0 ... 3): red, green, blue, 0. In units of a
+  /// pixel whose largest |p| is 1; u, v run 0 ... 1 over the patch.
+  static constexpr std::size_t kPatchFloats = 64;
+  static constexpr int kMostLinearNormals = 8;
+
+  std::array<float, 9> cubeFromRgb{};   ///< rows
+  std::array<float, 9> linearMatrix{};  ///< rows; exact inside the linear cone
+  /// The linear cone: n . rgb >= 0 for all. Count 0: there is none.
+  std::array<float, 3 * kMostLinearNormals> linearNormals{};
+  int linearNormalCount = 0;
+  bool identity = false;               ///< apply() copies
+  std::vector<std::uint32_t> roots;    ///< face by face, row by row: start in patchIndex << kDepthBits | depth
+  std::array<std::uint32_t, kFaceCount> faceOffset{};  ///< of a face's first root
+  std::vector<std::uint32_t> patchIndex;  ///< dense tables of the root cells: patch << kDepthBits | its level
+  std::vector<float> patches;                          ///< kPatchFloats a patch
+
+  /// What the build did.
+  struct Statistics {
+    int solves = 0;           ///< exact colours computed
+    int patches = 0;
+    double largestError = 0;  ///< at the checked points, approximate CIEDE2000 at Y = 0.18
+  };
+  Statistics statistics;
+
+  /// Applies to rgba.size() / 4 pixels in place; alpha is left alone. The result of a pixel does not depend on its
+  /// neighbours, the length of the span or the instruction set. A pixel with a NaN or infinite component is left
+  /// unchanged. `source` and `destination` are equal or do not overlap.
+  void apply(std::span<const float> source, std::span<float> destination) const;
+  void apply(std::span<float> rgba) const { apply(rgba, rgba); }
+};
+
+/// Default tolerance of a map: what keeps its 99th percentile under a tenth of a CIEDE2000.
+inline constexpr double kDefaultMapTolerance = 0.09;
+
+/// Builds the map of a transform.
+/// @param tolerance  CIEDE2000 at Y = 0.18, relative to the working white, at each patch's checked points; ten times as
+///                   much beyond what reflectances can make. Patches at the greatest depth may exceed it
+///                   (statistics.largestError says by how much).
+HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance = kDefaultMapTolerance);
+
+}  // namespace metamer::sip

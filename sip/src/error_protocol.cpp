@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/sip/error_protocol.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "metamer/sip/band_weights.h"
+#include "metamer/spectral/colorimetry.h"
+
+namespace metamer::sip {
+
+namespace {
+
+constexpr double kProbeLuminance = 0.18;
+constexpr double kRingFraction = 0.97;
+
+std::string label(const char* kind, double a, double b) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%s %.4f %.4f", kind, a, b);
+  return text.data();
+}
+
+}  // namespace
+
+ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectral::Spectrum>& chart,
+                             const Options& options)
+    : m_options(options), m_converged(spec, kConvergedBandCount) {
+  const Eigen::Matrix3d rgbFromXyz = spec.space.rgbFromXyz();
+  const Eigen::Vector2d white = spectral::chromaticity(spec.space.whiteXyz());
+  const auto add = [&](std::string name, const Eigen::Vector3d& rgb) {
+    if (!options.insideGamutOnly || rgb.minCoeff() >= 0.0) {
+      m_probes.push_back({std::move(name), rgb});
+      m_expected.push_back(m_converged.apply(rgb));
+    }
+  };
+  const auto colourAt = [&](const Eigen::Vector2d& xy) -> Eigen::Vector3d {
+    return rgbFromXyz * spectral::xyzFromChromaticity(xy, kProbeLuminance);
+  };
+
+  // Roberts' R2 sequence on the parallelogram of two sides of the gamut, folded into the triangle.
+  const double plastic = 1.32471795724474602596;
+  const std::array<double, 2> step = {1.0 / plastic, 1.0 / (plastic * plastic)};
+  const Eigen::Vector2d& origin = spec.space.primaries[0];
+  for (int i = 0, kept = 0; kept < options.chromaticityCount && i < 64 * options.chromaticityCount; ++i) {
+    double u = std::fmod(0.5 + step[0] * (i + 1), 1.0);
+    double v = std::fmod(0.5 + step[1] * (i + 1), 1.0);
+    if (u + v > 1.0) {
+      u = 1.0 - u;
+      v = 1.0 - v;
+    }
+    const Eigen::Vector2d xy =
+        origin + u * (spec.space.primaries[1] - origin) + v * (spec.space.primaries[2] - origin);
+    if (xy.y() > 1e-3 && m_converged.isFeasible(colourAt(xy))) {
+      add(label("xy", xy.x(), xy.y()), colourAt(xy));
+      ++kept;
+    }
+  }
+
+  // The patches as the input pipeline sees them.
+  const PreparedPipeline input = prepare(spec.input, spec.training, spec.standardObserver);
+  const Eigen::Matrix3d rgbFromResponse = m_converged.responseFromRgb().inverse();
+  for (const auto& patch : chart) {
+    const Eigen::Vector3d response = input.curves.transpose() * patch.onDomain().cwiseProduct(input.light);
+    add("patch " + patch.name(), rgbFromResponse * response.cwiseQuotient(input.white));
+  }
+
+  for (int i = 0; i < options.ringCount; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / options.ringCount;
+    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    double inside = 0.0;
+    double outside = 1.0;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (inside + outside);
+      const Eigen::Vector2d xy = white + middle * direction;
+      (xy.y() > 1e-6 && m_converged.isFeasible(colourAt(xy)) ? inside : outside) = middle;
+    }
+    const Eigen::Vector2d xy = white + kRingFraction * inside * direction;
+    add(label("ring", xy.x(), xy.y()), colourAt(xy));
+  }
+}
+
+ErrorProtocol::Report ErrorProtocol::measure(const std::function<void(std::span<float> rgba)>& candidate) const {
+  return compare(m_expected, candidate);
+}
+
+ErrorProtocol::Report ErrorProtocol::measureAgainst(
+    const SpectralTransform& reference, const std::function<void(std::span<float> rgba)>& candidate) const {
+  std::vector<Eigen::Vector3d> expected;
+  expected.reserve(m_probes.size());
+  for (const Probe& probe : m_probes) {
+    expected.push_back(reference.apply(probe.rgb));
+  }
+  return compare(expected, candidate);
+}
+
+ErrorProtocol::Report ErrorProtocol::compare(const std::vector<Eigen::Vector3d>& expectedRgb,
+                                             const std::function<void(std::span<float> rgba)>& candidate) const {
+  const Eigen::Matrix3d xyzFromRgb = m_converged.space().xyzFromRgb();
+  const Eigen::Vector3d white = m_converged.whiteXyz();
+  const auto labOf = [&](const Eigen::Vector3d& rgb) { return spectral::lab(xyzFromRgb * rgb, white); };
+  std::vector<Eigen::Vector3d> expected;
+  expected.reserve(expectedRgb.size());
+  for (const Eigen::Vector3d& rgb : expectedRgb) {
+    expected.push_back(labOf(rgb));
+  }
+  Report report;
+  std::vector<double> errors;
+  std::vector<float> pixels(4 * m_probes.size());
+  for (int stop = m_options.lowestStop; stop <= m_options.highestStop; ++stop) {
+    const double exposure = std::ldexp(1.0, stop);
+    for (std::size_t i = 0; i < m_probes.size(); ++i) {
+      Eigen::Map<Eigen::Vector4f>(pixels.data() + 4 * i) << (exposure * m_probes[i].rgb).cast<float>(), 1.0F;
+    }
+    candidate(pixels);
+    for (std::size_t i = 0; i < m_probes.size(); ++i) {
+      const Eigen::Vector3d result = Eigen::Map<const Eigen::Vector3f>(pixels.data() + 4 * i).cast<double>() / exposure;
+      double error = spectral::deltaE2000(expected[i], labOf(result));
+      if (!std::isfinite(error)) {
+        error = std::numeric_limits<double>::infinity();
+      }
+      if (errors.empty() || error > report.max) {
+        report.max = error;
+        report.worstProbe = m_probes[i].name + " at " + (stop >= 0 ? "+" : "") + std::to_string(stop) + " stops";
+        report.worstRgb = exposure * m_probes[i].rgb;
+      }
+      errors.push_back(error);
+      report.mean += error;
+    }
+  }
+  if (errors.empty()) {
+    return report;
+  }
+  report.count = errors.size();
+  report.mean /= static_cast<double>(errors.size());
+  const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(errors.size()))) - 1;
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(rank), errors.end());
+  report.p99 = errors[rank];
+  return report;
+}
+
+}  // namespace metamer::sip

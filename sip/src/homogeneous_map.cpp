@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/sip/homogeneous_map.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "perceptual_metric.h"
+
+namespace metamer::sip {
+
+namespace {
+
+using Map = HomogeneousMap;
+
+/// Colours that no reflectance can make are judged this much more leniently.
+constexpr double kOutsideLeniency = 10.0;
+
+/// Down to this level a patch is checked in the middles of its edges too: on a large cell the border of what
+/// reflectances can make may pass the middle by.
+constexpr int kEdgeCheckLevels = 3;
+
+/// Cube coordinates from the white-normalised response (a, b, c): (2a - s, 2b - s, s), s the sum. On the front face
+/// they are chromaticity stretched to -1 ... 1; all that reflectances can make lies there.
+Eigen::Matrix3d cubeFromResponse() {
+  Eigen::Matrix3d matrix;
+  matrix << 1, -1, -1,  //
+      -1, 1, -1,        //
+      1, 1, 1;
+  return matrix;
+}
+
+/// Inscribed polygon with at most `most` corners: drops the corner that costs the least area, again and again.
+std::vector<Eigen::Vector3d> inscribedPolygon(std::vector<Eigen::Vector3d> corners, const Eigen::Matrix3d& cubeFromRgb,
+                                              std::size_t most) {
+  const auto flat = [&](const Eigen::Vector3d& ray) {
+    const Eigen::Vector3d p = cubeFromRgb * ray;
+    return Eigen::Vector2d(p.head<2>() / p.z());
+  };
+  while (corners.size() > most) {
+    std::size_t least = 0;
+    double leastArea = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Eigen::Vector2d a = flat(corners[(i + corners.size() - 1) % corners.size()]);
+      const Eigen::Vector2d b = flat(corners[i]);
+      const Eigen::Vector2d c = flat(corners[(i + 1) % corners.size()]);
+      const Eigen::Vector2d ab = b - a;
+      const Eigen::Vector2d ac = c - a;
+      const double area = std::abs(ab.x() * ac.y() - ab.y() * ac.x());
+      if (area < leastArea) {
+        leastArea = area;
+        least = i;
+      }
+    }
+    corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(least));
+  }
+  return corners;
+}
+
+/// Bicubic coefficients [power of v][power of u], each an RGB.
+using Patch = std::array<std::array<Eigen::Vector3d, 4>, 4>;
+
+/// Power coefficients of the cubic with values a, b and derivatives da, db at 0 and 1.
+std::array<Eigen::Vector3d, 4> hermite(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& da,
+                                       const Eigen::Vector3d& db) {
+  return {a, da, 3.0 * (b - a) - 2.0 * da - db, 2.0 * (a - b) + da + db};
+}
+
+Eigen::Vector3d evaluate(const Patch& patch, double u, double v) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t j = 4; j-- > 0;) {
+    const auto& row = patch[j];
+    sum = sum * v + (((row[3] * u + row[2]) * u + row[1]) * u + row[0]);
+  }
+  return sum;
+}
+
+class Builder {
+ public:
+  Builder(const SpectralTransform& transform, double tolerance)
+      : m_transform(transform),
+        m_tolerance(tolerance),
+        m_cubeFromRgb(cubeFromResponse() * transform.responseFromRgb()),
+        m_rgbFromCube(m_cubeFromRgb.inverse()),
+        m_metric(transform.space()) {}
+
+  Map build() {
+    m_map.identity = m_transform.isIdentity();
+    if (m_map.identity) {
+      return std::move(m_map);
+    }
+    Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(m_map.cubeFromRgb.data()) = m_cubeFromRgb.cast<float>();
+    Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(m_map.linearMatrix.data()) =
+        m_transform.unconstrainedMatrix().cast<float>();
+    addLinearCone();
+    for (int face = 0; face < Map::kFaceCount; ++face) {
+      m_map.faceOffset[static_cast<std::size_t>(face)] = static_cast<std::uint32_t>(m_map.roots.size());
+      const int side = Map::kRootsPerSide[static_cast<std::size_t>(face)];
+      for (int j = 0; j < side; ++j) {
+        for (int i = 0; i < side; ++i) {
+          addRoot(face, i, j);
+        }
+      }
+    }
+    return std::move(m_map);
+  }
+
+ private:
+  /// The transform at a point of a face, as a function of the face's coordinates.
+  struct Node {
+    SpectralTransform::Linearisation exact;
+    Eigen::Vector3d alongU;    ///< derivative per unit of the first face coordinate
+    Eigen::Vector3d alongV;
+    Eigen::Matrix3d metric;    ///< length of metric * error is about CIEDE2000
+    double tolerance;
+  };
+  struct Placed {
+    int level;
+    int i;
+    int j;
+    std::uint32_t patch;
+  };
+
+  void addLinearCone() {
+    const auto corners = inscribedPolygon(m_transform.linearConeCorners(), m_cubeFromRgb, Map::kMostLinearNormals);
+    if (corners.size() < 3) {
+      return;
+    }
+    m_map.linearNormalCount = static_cast<int>(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      Eigen::Vector3d normal = corners[i].cross(corners[(i + 1) % corners.size()]).normalized();
+      if (normal.sum() < 0.0) {  // neutral (1, 1, 1) is inside
+        normal = -normal;
+      }
+      Eigen::Map<Eigen::Vector3f>(m_map.linearNormals.data() + 3 * i) = normal.cast<float>();
+    }
+  }
+
+  /// Position in units of half the finest cell; `near` a node close by, for a first guess.
+  const Node& node(int face, int u, int v, const Node* near) {
+    const std::uint64_t key = (static_cast<std::uint64_t>(face) << 40) | (static_cast<std::uint64_t>(u) << 20) |
+                              static_cast<std::uint64_t>(v);
+    const auto [place, isNew] = m_nodes.try_emplace(key);
+    Node& made = place->second;
+    if (!isNew) {
+      return made;
+    }
+    const int steps = Map::kRootsPerSide[static_cast<std::size_t>(face)] << (Map::kMaximumDepth + 1);
+    const int axis = face / 2;
+    Eigen::Vector3d cube;
+    cube[axis] = face % 2 == 0 ? 1.0 : -1.0;
+    cube[(axis + 1) % 3] = 2.0 * u / steps - 1.0;
+    cube[(axis + 2) % 3] = 2.0 * v / steps - 1.0;
+    const Eigen::Vector3d rgb = m_rgbFromCube * cube;
+    made.exact = m_transform.linearise(rgb, near != nullptr ? &near->exact : nullptr);
+    made.alongU = made.exact.matrix * m_rgbFromCube.col((axis + 1) % 3);
+    made.alongV = made.exact.matrix * m_rgbFromCube.col((axis + 2) % 3);
+    made.metric = m_metric.at(rgb, made.exact.value);
+    made.tolerance = m_transform.isFeasible(rgb) ? m_tolerance : kOutsideLeniency * m_tolerance;
+    ++m_map.statistics.solves;
+    return made;
+  }
+
+  /// Bicubic Hermite patch over the corners (low-low, high-low, low-high, high-high); the mixed derivatives, which the
+  /// corners do not tell, are Adini's: exact for cubics. Neighbours of one size share their edge exactly.
+  static Patch hermitePatch(const std::array<const Node*, 4>& corner, double side) {
+    const auto value = [&](std::size_t k) -> const Eigen::Vector3d& { return corner[k]->exact.value; };
+    const auto du = [&](std::size_t k) -> Eigen::Vector3d { return side * corner[k]->alongU; };
+    const auto dv = [&](std::size_t k) -> Eigen::Vector3d { return side * corner[k]->alongV; };
+    const Eigen::Vector3d twist = value(3) - value(1) - value(2) + value(0);
+    const auto mixed = [&](std::size_t k) -> Eigen::Vector3d {
+      const std::size_t row = k & 2U;
+      const std::size_t column = k & 1U;
+      return (du(2 + column) - du(column)) + (dv(row + 1) - dv(row)) - twist;
+    };
+    // Along u for the four quantities, then along v for each power of u.
+    const auto low = hermite(value(0), value(1), du(0), du(1));
+    const auto high = hermite(value(2), value(3), du(2), du(3));
+    const auto lowSlope = hermite(dv(0), dv(1), mixed(0), mixed(1));
+    const auto highSlope = hermite(dv(2), dv(3), mixed(2), mixed(3));
+    Patch patch;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto powers = hermite(low[i], high[i], lowSlope[i], highSlope[i]);
+      for (std::size_t j = 0; j < 4; ++j) {
+        patch[j][i] = powers[j];
+      }
+    }
+    return patch;
+  }
+
+  /// Error of a patch at a checked point over the tolerance there.
+  static double excess(const Patch& patch, const Node& at, double u, double v) {
+    return (at.metric * (evaluate(patch, u, v) - at.exact.value)).norm() / at.tolerance;
+  }
+
+  std::uint32_t store(const Patch& patch) {
+    const auto index = static_cast<std::uint32_t>(m_map.patches.size() / Map::kPatchFloats);
+    for (const auto& row : patch) {
+      for (const auto& coefficient : row) {
+        for (int k = 0; k < 3; ++k) {
+          m_map.patches.push_back(static_cast<float>(coefficient[k]));
+        }
+        m_map.patches.push_back(0.0F);
+      }
+    }
+    ++m_map.statistics.patches;
+    return index;
+  }
+
+  /// Corner (u, v) and side of a cell in half finest cells.
+  void refine(int face, int u, int v, int side, int level, int i, int j, std::vector<Placed>& placed) {
+    const Node& first = node(face, u, v, m_latest);
+    m_latest = &first;
+    const std::array<const Node*, 4> corners{&first, &node(face, u + side, v, &first), &node(face, u, v + side, &first),
+                                             &node(face, u + side, v + side, &first)};
+    const int steps = Map::kRootsPerSide[static_cast<std::size_t>(face)] << (Map::kMaximumDepth + 1);
+    const Patch patch = hermitePatch(corners, 2.0 * side / steps);
+    const int half = side / 2;
+    // The middle first: most patches that fail, fail there.
+    double worst = excess(patch, node(face, u + half, v + half, &first), 0.5, 0.5);
+    if (worst <= 1.0 && level < kEdgeCheckLevels) {
+      worst = std::max({worst, excess(patch, node(face, u + half, v, &first), 0.5, 0.0),
+                        excess(patch, node(face, u, v + half, &first), 0.0, 0.5),
+                        excess(patch, node(face, u + side, v + half, &first), 1.0, 0.5),
+                        excess(patch, node(face, u + half, v + side, &first), 0.5, 1.0)});
+    }
+    if (worst <= 1.0 || level == Map::kDepthLimit[static_cast<std::size_t>(face)]) {
+      m_map.statistics.largestError = std::max(m_map.statistics.largestError, worst * m_tolerance);
+      placed.push_back({level, i, j, store(patch)});
+      return;
+    }
+    for (int dj = 0; dj < 2; ++dj) {
+      for (int di = 0; di < 2; ++di) {
+        refine(face, u + di * half, v + dj * half, half, level + 1, 2 * i + di, 2 * j + dj, placed);
+      }
+    }
+  }
+
+  void addRoot(int face, int i, int j) {
+    constexpr int kSide = 1 << (Map::kMaximumDepth + 1);
+    std::vector<Placed> placed;
+    refine(face, i * kSide, j * kSide, kSide, 0, 0, 0, placed);
+    int depth = 0;
+    for (const Placed& patch : placed) {
+      depth = std::max(depth, patch.level);
+    }
+    const auto first = static_cast<std::uint32_t>(m_map.patchIndex.size());
+    const int side = 1 << depth;
+    m_map.patchIndex.resize(first + static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    for (const Placed& patch : placed) {
+      const int span = 1 << (depth - patch.level);
+      for (int row = patch.j * span; row < (patch.j + 1) * span; ++row) {
+        for (int column = patch.i * span; column < (patch.i + 1) * span; ++column) {
+          m_map.patchIndex[first + static_cast<std::size_t>(row * side + column)] =
+              (patch.patch << Map::kDepthBits) | static_cast<std::uint32_t>(patch.level);
+        }
+      }
+    }
+    m_map.roots.push_back((first << Map::kDepthBits) | static_cast<std::uint32_t>(depth));
+  }
+
+  const SpectralTransform& m_transform;
+  double m_tolerance;
+  Eigen::Matrix3d m_cubeFromRgb;
+  Eigen::Matrix3d m_rgbFromCube;
+  PerceptualMetric m_metric;
+  Map m_map;
+  std::unordered_map<std::uint64_t, Node> m_nodes;
+  const Node* m_latest = nullptr;
+};
+
+}  // namespace
+
+HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance) {
+  return Builder(transform, tolerance).build();
+}
+
+}  // namespace metamer::sip

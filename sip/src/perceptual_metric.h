@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "metamer/spectral/rgb_space.h"
+
+namespace metamer::sip {
+
+/// CIEDE2000 to first order: what a small RGB error at a colour amounts to. Steers refinement; the error protocol
+/// measures the result with the full formula.
+class PerceptualMetric {
+ public:
+  explicit PerceptualMetric(const spectral::RgbSpace& space);
+
+  /// Matrix G: |G * error| is about the CIEDE2000 between `output + error` and `output`, both scaled by the exposure
+  /// that puts `input` at Y = 0.18. Rotation term and hue weight T are left out (T = 1). Where the input's luminance
+  /// is small or negative it counts as a fiftieth of the largest tristimulus.
+  Eigen::Matrix3d at(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const;
+
+ private:
+  Eigen::Matrix3d m_xyzFromRgb;
+  Eigen::Matrix3d m_relativeFromRgb;  ///< XYZ over white
+};
+
+}  // namespace metamer::sip

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/sip/recipe.h"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <system_error>
+
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/near_names.h"
+#include "metamer/spectral/spectral_files.h"
+#include "yaml_tree.h"
+
+namespace metamer::sip {
+namespace {
+
+using spectral::InputError;
+
+constexpr double kLargestDensity = 100.0;
+constexpr double kLargestRadius = 1.0;
+/// Reflectances over which the matrix of a camera is solved.
+constexpr const char* kTrainingSet = "rawtoaces 190";
+constexpr const char* kStandardObserver = "CIE 1931 2";
+
+std::string joined(std::initializer_list<const char*> words) {
+  std::string text;
+  for (const char* word : words) {
+    text += (text.empty() ? "" : ", ") + std::string(word);
+  }
+  return text;
+}
+
+/// A map of the recipe, read key by key.
+class Section {
+ public:
+  /// @param path  dotted name of the section for messages; empty at the top
+  Section(const YamlNode& node, std::string where, std::string path, std::initializer_list<const char*> keys)
+      : m_node(node), m_where(std::move(where)), m_path(std::move(path)) {
+    if (node.kind != YamlNode::Kind::Map) {
+      throw error(node, m_path.empty() ? "recipe" : m_path, node.text,
+                  "must be a map of " + joined(keys) + ", such as 'metamer: 1'");
+    }
+    const std::vector<std::string> known(keys.begin(), keys.end());
+    std::set<std::string> seen;
+    for (const auto& [key, value] : node.members) {
+      if (std::find(known.begin(), known.end(), key) == known.end()) {
+        const auto near = spectral::nearNames(key, known, 2);
+        throw error(value, "key", named(key),
+                    "unknown; " + (near.empty() ? std::string() : "did you mean '" + near.front() + "'? ") +
+                        "the keys here are " + joined(keys));
+      }
+      if (!seen.insert(key).second) {
+        throw error(value, "key", named(key), "is given twice; keep one");
+      }
+    }
+  }
+
+  const YamlNode* find(const std::string& key) const {
+    for (const auto& [name, value] : m_node.members) {
+      if (name == key) {
+        return &value;
+      }
+    }
+    return nullptr;
+  }
+
+  const YamlNode& require(const std::string& key, const std::string& remedy) const {
+    const YamlNode* node = find(key);
+    if (node == nullptr) {
+      throw error(m_node, named(key), "", remedy);
+    }
+    return *node;
+  }
+
+  std::string text(const YamlNode& node, const std::string& key) const {
+    if (node.kind != YamlNode::Kind::Scalar) {
+      throw error(node, named(key), node.text, "must be a name, not a " + node.kindName());
+    }
+    if (node.text.empty()) {
+      throw error(node, named(key), "", "is empty; give a name or leave the key out");
+    }
+    return node.text;
+  }
+
+  void read(const std::string& key, std::string& target) const {
+    if (const YamlNode* node = find(key)) {
+      target = text(*node, key);
+    }
+  }
+
+  /// A whole token within low ... high.
+  void read(const std::string& key, double& target, double low, double high) const {
+    const YamlNode* node = find(key);
+    if (node == nullptr) {
+      return;
+    }
+    char range[64];
+    std::snprintf(range, sizeof range, "must be a number from %g to %g", low, high);
+    double value = 0;
+    const char* end = node->text.data() + node->text.size();
+    const auto parsed = std::from_chars(node->text.data(), end, value);
+    if (node->kind != YamlNode::Kind::Scalar || node->quoted || parsed.ec != std::errc() || parsed.ptr != end ||
+        !(value >= low && value <= high)) {
+      throw error(*node, named(key), node->text, range);
+    }
+    target = value;
+  }
+
+  void read(const std::string& key, bool& target) const {
+    if (const YamlNode* node = find(key)) {
+      if (node->kind != YamlNode::Kind::Scalar || (node->text != "true" && node->text != "false")) {
+        throw error(*node, named(key), node->text, "must be true or false");
+      }
+      target = node->text == "true";
+    }
+  }
+
+  std::string named(const std::string& key) const { return m_path.empty() ? key : m_path + "." + key; }
+
+  InputError error(const YamlNode& node, const std::string& field, const std::string& value,
+                   const std::string& remedy) const {
+    return InputError(m_where + ":" + std::to_string(node.line), field, value, remedy);
+  }
+  const std::string& where() const { return m_where; }
+
+ private:
+  const YamlNode& m_node;
+  std::string m_where;
+  std::string m_path;
+};
+
+RecipeFilter readFilter(const YamlNode& node, const Section& pipeline, const std::string& path) {
+  if (node.kind == YamlNode::Kind::Scalar) {
+    return {pipeline.text(node, "filters"), 1.0};
+  }
+  const Section section(node, pipeline.where(), path, {"name", "file", "density"});
+  RecipeFilter filter;
+  const YamlNode* name = section.find("name");
+  const YamlNode* file = section.find("file");
+  if ((name == nullptr) == (file == nullptr)) {
+    throw section.error(node, path, "", "must have either a name or a file");
+  }
+  filter.name = name != nullptr ? section.text(*name, "name") : section.text(*file, "file");
+  // A file without folder or extension would be taken for a name.
+  if (file != nullptr && filter.name.find('/') == std::string::npos && filter.name.find('\\') == std::string::npos) {
+    filter.name = "./" + filter.name;
+  }
+  section.read("density", filter.density, 0.0, kLargestDensity);
+  return filter;
+}
+
+RecipePipeline readPipeline(const Section& section) {
+  RecipePipeline pipeline;
+  pipeline.illuminant = section.text(
+      section.require("illuminant", "is missing; name the light, such as 'illuminant: D65'"), "illuminant");
+  section.read("observer", pipeline.observer);
+  if (const YamlNode* filters = section.find("filters")) {
+    if (filters->kind != YamlNode::Kind::Sequence) {
+      throw section.error(*filters, section.named("filters"), filters->text, "must be a list, such as [gel.csv]");
+    }
+    for (std::size_t i = 0; i < filters->items.size(); ++i) {
+      pipeline.filters.push_back(
+          readFilter(filters->items[i], section, section.named("filters") + "[" + std::to_string(i) + "]"));
+    }
+  }
+  return pipeline;
+}
+
+RecipeScene readScene(const Section& section) {
+  RecipeScene scene;
+  std::string kind = "smooth";
+  section.read("kind", kind);
+  if (kind == "dataset") {
+    scene.kind = ReferenceScene::Kind::Dataset;
+  } else if (kind == "prior") {
+    scene.kind = ReferenceScene::Kind::Prior;
+  } else if (kind != "smooth") {
+    throw section.error(*section.find("kind"), "scene.kind", kind, "must be smooth, dataset or prior");
+  }
+  section.read("set", scene.set);
+  section.read("strength", scene.strength, 0.0, 1.0);
+  section.read("radius", scene.radius, 1e-4, kLargestRadius);
+  const auto refuse = [&](const char* key, const char* remedy) {
+    if (const YamlNode* node = section.find(key)) {
+      throw section.error(*node, section.named(key), node->text, remedy);
+    }
+  };
+  if (scene.kind == ReferenceScene::Kind::Smooth) {
+    refuse("set", "has no meaning with kind smooth; use kind dataset or prior, or leave it out");
+  } else {
+    section.require("set", "is missing; name a reflectance set (see: lutgen list reflectances)");
+  }
+  if (scene.kind != ReferenceScene::Kind::Prior) {
+    refuse("strength", "has a meaning with kind prior alone; leave it out");
+    refuse("radius", "has a meaning with kind prior alone; leave it out");
+  }
+  return scene;
+}
+
+/// Text as a YAML scalar that reads back as the same text.
+std::string quoted(const std::string& text) {
+  const auto isPlain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), isPlain) && text != "null" && text != "Null" &&
+      text != "NULL") {
+    return text;
+  }
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      result += '\\';
+    }
+    result += c;
+  }
+  return result + '"';
+}
+
+std::string number(double value) {
+  char digits[32];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value);
+  return {digits, end.ptr};
+}
+
+std::string toYaml(const RecipePipeline& pipeline) {
+  std::string text = "{illuminant: " + quoted(pipeline.illuminant) + ", filters: [";
+  for (std::size_t i = 0; i < pipeline.filters.size(); ++i) {
+    const RecipeFilter& filter = pipeline.filters[i];
+    text += std::string(i == 0 ? "" : ", ") + "{name: " + quoted(filter.name) + ", density: " + number(filter.density) +
+            "}";
+  }
+  return text + "], observer: " + quoted(pipeline.observer);
+}
+
+/// Runs a look-up and says in its error where in the recipe the name stands.
+template <typename Look>
+auto lookUp(const char* field, Look look) {
+  try {
+    return look();
+  } catch (const InputError& error) {
+    throw InputError(field, "", "", error.what());
+  }
+}
+
+Pipeline resolvePipeline(const char* side, const RecipePipeline& recipe, const std::filesystem::path& folder,
+                         const spectral::DataLibrary& library) {
+  return lookUp(side, [&] {
+    Pipeline pipeline{library.illuminant(recipe.illuminant, folder), {}, library.observer(recipe.observer, folder)};
+    for (const auto& filter : recipe.filters) {
+      pipeline.filters.push_back({library.filter(filter.name, folder), filter.density});
+    }
+    return pipeline;
+  });
+}
+
+std::vector<spectral::DomainSamples> onDomain(const spectral::ReflectanceSet& set) {
+  std::vector<spectral::DomainSamples> samples;
+  for (const auto& sample : set.samples) {
+    samples.push_back(sample.onDomain());
+  }
+  return samples;
+}
+
+}  // namespace
+
+Recipe readRecipe(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(file, none);
+  if (!none && std::filesystem::is_regular_file(file, none) && size > kLargestRecipeBytes) {
+    throw InputError(file.string(), "size", std::to_string(size),
+                     "is more than a recipe may have (" + std::to_string(kLargestRecipeBytes) + " bytes)");
+  }
+  Recipe recipe = parseRecipe(spectral::readTextFile(file), file.string());
+  recipe.folder = file.parent_path();
+  return recipe;
+}
+
+Recipe parseRecipe(const std::string& text, const std::string& where) {
+  if (text.size() > kLargestRecipeBytes) {
+    throw InputError(where, "size", std::to_string(text.size()),
+                     "is more than a recipe may have (" + std::to_string(kLargestRecipeBytes) + " bytes)");
+  }
+  const YamlNode root = parseYaml(text, where);
+  const Section top(root, where, "", {"metamer", "name", "space", "input", "output", "scene", "cat", "keep_exposure"});
+  const YamlNode& version = top.require("metamer", "is missing; a recipe starts with 'metamer: 1'");
+  if (version.kind != YamlNode::Kind::Scalar || version.text != "1") {
+    throw top.error(version, "metamer", version.text, "is a version this release does not read; it reads 1");
+  }
+  Recipe recipe;
+  top.read("name", recipe.name);
+  top.read("space", recipe.space);
+  top.read("keep_exposure", recipe.keepExposure);
+
+  const Section input(top.require("input", "is missing; give the light, such as 'input: {illuminant: D65}'"), where,
+                      "input", {"illuminant", "filters", "observer"});
+  recipe.input = readPipeline(input);
+  const Section output(top.require("output", "is missing; give the light, such as 'output: {illuminant: A}'"), where,
+                       "output", {"illuminant", "filters", "observer", "adaptation"});
+  recipe.output = readPipeline(output);
+  output.read("adaptation", recipe.adaptation, 0.0, 1.0);
+
+  if (const YamlNode* scene = top.find("scene")) {
+    recipe.scene = readScene(Section(*scene, where, "scene", {"kind", "set", "strength", "radius"}));
+  }
+  if (const YamlNode* cat = top.find("cat")) {
+    const std::string name = top.text(*cat, "cat");
+    try {
+      recipe.cat = spectral::chromaticAdaptationFromName(name);
+    } catch (const InputError&) {
+      throw top.error(*cat, "cat", name, "must be vonkries, bradford, cat02 or cat16");
+    }
+  }
+  return recipe;
+}
+
+std::string toYaml(const Recipe& recipe) {
+  std::string text = "metamer: 1\nname: " + quoted(recipe.name) + "\nspace: " + quoted(recipe.space) +
+                     "\ninput: " + toYaml(recipe.input) + "}\noutput: " + toYaml(recipe.output) +
+                     ", adaptation: " + number(recipe.adaptation) + "}\n";
+  switch (recipe.scene.kind) {
+    case ReferenceScene::Kind::Smooth:
+      text += "scene: {kind: smooth}\n";
+      break;
+    case ReferenceScene::Kind::Dataset:
+      text += "scene: {kind: dataset, set: " + quoted(recipe.scene.set) + "}\n";
+      break;
+    case ReferenceScene::Kind::Prior:
+      text += "scene: {kind: prior, set: " + quoted(recipe.scene.set) + ", strength: " + number(recipe.scene.strength) +
+              ", radius: " + number(recipe.scene.radius) + "}\n";
+      break;
+  }
+  text += "cat: " + spectral::nameOf(recipe.cat) + "\n";
+  return text + "keep_exposure: " + (recipe.keepExposure ? "true" : "false") + "\n";
+}
+
+TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library) {
+  return resolve(recipe, library, lookUp("recipe", [&] { return library.colourSpace(recipe.space).linear; }));
+}
+
+TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library, const spectral::RgbSpace& space) {
+  TransformSpec spec{.space = space,
+                     .input = resolvePipeline("input", recipe.input, recipe.folder, library),
+                     .output = resolvePipeline("output", recipe.output, recipe.folder, library),
+                     .adaptation = recipe.adaptation,
+                     .cat = recipe.cat,
+                     .keepExposure = recipe.keepExposure,
+                     .scene = {.kind = recipe.scene.kind,
+                               .samples = {},
+                               .strength = recipe.scene.strength,
+                               .radius = recipe.scene.radius},
+                     .training = onDomain(library.reflectances(kTrainingSet)),
+                     .standardObserver = library.observer(kStandardObserver)};
+  if (recipe.scene.kind != ReferenceScene::Kind::Smooth) {
+    spec.scene.samples =
+        lookUp("scene", [&] { return onDomain(library.reflectances(recipe.scene.set, recipe.folder)); });
+  }
+  return spec;
+}
+
+}  // namespace metamer::sip
