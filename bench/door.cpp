@@ -46,9 +46,13 @@ extern "C" void* metamerOpen(const char* input, const char* output) {
   return session.release();
 }
 
-extern "C" void metamerClose(void* handle) { delete static_cast<Session*>(handle); }
+extern "C" void metamerClose(void* handle) {
+  delete static_cast<Session*>(handle);
+}
 
-extern "C" double metamerBuildSeconds(void* handle) { return static_cast<Session*>(handle)->buildSeconds; }
+extern "C" double metamerBuildSeconds(void* handle) {
+  return static_cast<Session*>(handle)->buildSeconds;
+}
 
 extern "C" void metamerMap(void* handle, const float* source, float* destination, std::size_t pixels) {
   static_cast<Session*>(handle)->map.apply({source, 4 * pixels}, {destination, 4 * pixels});
@@ -78,9 +82,8 @@ extern "C" void metamerDeltaE(void* handle, const double* a, const double* b, do
   const Eigen::Matrix3d xyzFromRgb = space.xyzFromRgb();
   const Eigen::Vector3d white = space.whiteXyz();
   for (std::size_t i = 0; i < count; ++i) {
-    deltaE[i] = spectral::deltaE2000(
-        spectral::lab(xyzFromRgb * Eigen::Map<const Eigen::Vector3d>(a + 3 * i), white),
-        spectral::lab(xyzFromRgb * Eigen::Map<const Eigen::Vector3d>(b + 3 * i), white));
+    deltaE[i] = spectral::deltaE2000(spectral::lab(xyzFromRgb * Eigen::Map<const Eigen::Vector3d>(a + 3 * i), white),
+                                     spectral::lab(xyzFromRgb * Eigen::Map<const Eigen::Vector3d>(b + 3 * i), white));
   }
 }
 

@@ -51,8 +51,7 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
       u = 1.0 - u;
       v = 1.0 - v;
     }
-    const Eigen::Vector2d xy =
-        origin + u * (spec.space.primaries[1] - origin) + v * (spec.space.primaries[2] - origin);
+    const Eigen::Vector2d xy = origin + u * (spec.space.primaries[1] - origin) + v * (spec.space.primaries[2] - origin);
     if (xy.y() > 1e-3 && m_converged.isFeasible(colourAt(xy))) {
       add(label("xy", xy.x(), xy.y()), colourAt(xy));
       ++kept;
@@ -86,8 +85,8 @@ ErrorProtocol::Report ErrorProtocol::measure(const std::function<void(std::span<
   return compare(m_expected, candidate);
 }
 
-ErrorProtocol::Report ErrorProtocol::measureAgainst(
-    const SpectralTransform& reference, const std::function<void(std::span<float> rgba)>& candidate) const {
+ErrorProtocol::Report ErrorProtocol::measureAgainst(const SpectralTransform& reference,
+                                                    const std::function<void(std::span<float> rgba)>& candidate) const {
   std::vector<Eigen::Vector3d> expected;
   expected.reserve(m_probes.size());
   for (const Probe& probe : m_probes) {

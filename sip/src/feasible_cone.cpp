@@ -13,7 +13,9 @@ namespace {
 /// would have to be as many times brighter to use them.
 constexpr double kLightestGenerator = 1e-9;
 
-Eigen::Vector2d chromaticityOf(const Eigen::Vector3d& ray) { return ray.head<2>() / ray.sum(); }
+Eigen::Vector2d chromaticityOf(const Eigen::Vector3d& ray) {
+  return ray.head<2>() / ray.sum();
+}
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
@@ -21,9 +23,8 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Ve
 
 /// Andrew's monotone chain, counter-clockwise, without collinear points.
 std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
-  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
+  std::sort(points.begin(), points.end(),
+            [](const auto& a, const auto& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
   std::vector<Eigen::Vector2d> hull;
   const auto extend = [&hull](const Eigen::Vector2d& point, std::size_t floor) {
     while (hull.size() >= floor + 2 && cross(hull[hull.size() - 2], hull.back(), point) <= 1e-12) {

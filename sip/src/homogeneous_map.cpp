@@ -111,9 +111,9 @@ class Builder {
   /// The transform at a point of a face, as a function of the face's coordinates.
   struct Node {
     SpectralTransform::Linearisation exact;
-    Eigen::Vector3d alongU;    ///< derivative per unit of the first face coordinate
+    Eigen::Vector3d alongU;  ///< derivative per unit of the first face coordinate
     Eigen::Vector3d alongV;
-    Eigen::Matrix3d metric;    ///< length of metric * error is about CIEDE2000
+    Eigen::Matrix3d metric;  ///< length of metric * error is about CIEDE2000
     double tolerance;
   };
   struct Placed {

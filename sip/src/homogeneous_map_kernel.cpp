@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -24,7 +25,14 @@ using Map = HomogeneousMap;
 
 constexpr std::size_t kMostLanes = 16;
 using Float = hn::CappedTag<float, kMostLanes>;
+using Int = hn::RebindToSigned<Float>;
 using V = hn::VFromD<Float>;
+using I = hn::VFromD<Int>;
+
+constexpr int kFrontRoots = Map::kRootsPerSide[Map::kFrontFace];
+constexpr int kFrontRootBits = std::countr_zero(static_cast<unsigned>(kFrontRoots));
+static_assert(1 << kFrontRootBits == kFrontRoots);
+constexpr int kFrontCells = kFrontRoots << Map::kMaximumDepth;
 
 HWY_INLINE V dot(V ax, V ay, V az, V x, V y, V z) {
   return hn::Add(hn::Add(hn::Mul(ax, x), hn::Mul(ay, y)), hn::Mul(az, z));
@@ -38,7 +46,7 @@ struct Place {
   float v;
 };
 
-/// Scalar look-up, for any face.
+/// Scalar look-up, for any face: colours beyond the front one are rare (strong negatives).
 inline Place locate(const Map& map, const float* rgb) {
   std::array<float, 3> p{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -58,9 +66,7 @@ inline Place locate(const Map& map, const float* rgb) {
   const std::size_t face = 2 * axis + (p[axis] > 0.0F ? 0 : 1);
   const int side = Map::kRootsPerSide[face];
   const int cells = side << Map::kMaximumDepth;
-  const auto scaled = [&](std::size_t k) {
-    return (p[k % 3] / length * 0.5F + 0.5F) * static_cast<float>(cells);
-  };
+  const auto scaled = [&](std::size_t k) { return (p[k % 3] / length * 0.5F + 0.5F) * static_cast<float>(cells); };
   const float u = scaled(axis + 1);
   const float v = scaled(axis + 2);
   const int cellU = std::clamp(static_cast<int>(u), 0, cells - 1);
@@ -83,28 +89,98 @@ inline Place locate(const Map& map, const float* rgb) {
           (v - static_cast<float>((cellV >> span) << span)) * reciprocal};
 }
 
-/// Value of a patch times the pixel's length: red, green, blue.
-HWY_INLINE void applyPatch(const Place& place, float* result) {
-  // Sixteen lanes: the four powers of u, each red, green, blue, 0. Horner in v; the powers of u are summed last.
-  const hn::CappedTag<float, 16> d;
-  HWY_ALIGN std::array<float, 16> powersOfU;
-  HWY_ALIGN std::array<float, 16> terms;
-  const float u2 = place.u * place.u;
-  std::fill_n(powersOfU.begin(), 4, 1.0F);
-  std::fill_n(powersOfU.begin() + 4, 4, place.u);
-  std::fill_n(powersOfU.begin() + 8, 4, u2);
-  std::fill_n(powersOfU.begin() + 12, 4, u2 * place.u);
-  const auto v = hn::Set(d, place.v);
-  for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
-    auto sum = hn::LoadU(d, place.patch + 48 + i);
-    sum = hn::Add(hn::Mul(sum, v), hn::LoadU(d, place.patch + 32 + i));
-    sum = hn::Add(hn::Mul(sum, v), hn::LoadU(d, place.patch + 16 + i));
-    sum = hn::Add(hn::Mul(sum, v), hn::LoadU(d, place.patch + i));
-    hn::Store(hn::Mul(sum, hn::Load(d, powersOfU.data() + i)), d, terms.data() + i);
+/// Value of a patch times the pixel's length, and the alpha given: four floats at `destination`.
+/// Horner in v, then (i0 + u^2 i2) + u (i1 + u^2 i3) over the powers of u, whatever the vector length.
+HWY_INLINE void applyPatch(const float* patch, float length, float u, float v, float alpha, float* destination) {
+  const float u2 = u * u;
+#if HWY_TARGET <= HWY_AVX3 && HWY_TARGET != HWY_SCALAR
+  const hn::FixedTag<float, 16> d;
+  const auto vs = hn::Set(d, v);
+  auto powers = hn::LoadU(d, patch + 48);
+  powers = hn::Add(hn::Mul(powers, vs), hn::LoadU(d, patch + 32));
+  powers = hn::Add(hn::Mul(powers, vs), hn::LoadU(d, patch + 16));
+  powers = hn::Add(hn::Mul(powers, vs), hn::LoadU(d, patch));
+  const hn::FixedTag<float, 8> d8;
+  const auto pair = hn::Add(hn::LowerHalf(d8, powers), hn::Mul(hn::UpperHalf(d8, powers), hn::Set(d8, u2)));
+  const hn::FixedTag<float, 4> d4;
+  const auto sum = hn::Add(hn::LowerHalf(d4, pair), hn::Mul(hn::UpperHalf(d4, pair), hn::Set(d4, u)));
+  hn::StoreU(hn::Mul(sum, hn::Set(d4, length)), d4, destination);
+#else
+  const hn::CappedTag<float, 4> d;
+  const auto vs = hn::Set(d, v);
+  for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
+    const auto power = [&](std::size_t i) {
+      auto value = hn::LoadU(d, patch + 48 + 4 * i + k);
+      value = hn::Add(hn::Mul(value, vs), hn::LoadU(d, patch + 32 + 4 * i + k));
+      value = hn::Add(hn::Mul(value, vs), hn::LoadU(d, patch + 16 + 4 * i + k));
+      return hn::Add(hn::Mul(value, vs), hn::LoadU(d, patch + 4 * i + k));
+    };
+    const auto even = hn::Add(power(0), hn::Mul(power(2), hn::Set(d, u2)));
+    const auto odd = hn::Add(power(1), hn::Mul(power(3), hn::Set(d, u2)));
+    const auto sum = hn::Add(even, hn::Mul(odd, hn::Set(d, u)));
+    hn::StoreU(hn::Mul(sum, hn::Set(d, length)), d, destination + k);
   }
-  for (std::size_t k = 0; k < 3; ++k) {
-    result[k] = ((terms[k] + terms[k + 4]) + (terms[k + 8] + terms[k + 12])) * place.length;
-  }
+#endif
+  destination[3] = alpha;
+}
+
+/// Places of one vector of pixels on the front face; `beyond` are those that lie on another.
+struct Places {
+  HWY_ALIGN std::array<std::int32_t, kMostLanes> patch;  ///< index
+  HWY_ALIGN std::array<float, kMostLanes> length;
+  HWY_ALIGN std::array<float, kMostLanes> u;
+  HWY_ALIGN std::array<float, kMostLanes> v;
+};
+
+/// The same arithmetic as locate(), a vector at a time.
+HWY_INLINE hn::Mask<Float> locateOnFront(const Map& map, V r, V g, V b, Places& places) {
+  const Float d;
+  const Int di;
+  const auto row = [&](std::size_t k) {
+    return dot(hn::Set(d, map.cubeFromRgb[3 * k]), hn::Set(d, map.cubeFromRgb[3 * k + 1]),
+               hn::Set(d, map.cubeFromRgb[3 * k + 2]), r, g, b);
+  };
+  const V px = row(0);
+  const V py = row(1);
+  const V pz = row(2);
+  const auto front = hn::And(hn::And(hn::Ge(pz, hn::Abs(px)), hn::Ge(pz, hn::Abs(py))), hn::Gt(pz, hn::Zero(d)));
+  const V length = hn::IfThenElse(front, pz, hn::Set(d, 1.0F));
+  const V half = hn::Set(d, 0.5F);
+  const auto scaled = [&](V p) {
+    const V coordinate = hn::Div(hn::IfThenElseZero(front, p), length);
+    return hn::Mul(hn::Add(hn::Mul(coordinate, half), half), hn::Set(d, static_cast<float>(kFrontCells)));
+  };
+  const auto cell = [&](V x) {
+    return hn::Min(hn::Max(hn::ConvertTo(di, x), hn::Zero(di)), hn::Set(di, kFrontCells - 1));
+  };
+  const V u = scaled(px);
+  const V v = scaled(py);
+  const I cellU = cell(u);
+  const I cellV = cell(v);
+  const I rootIndex = hn::Add(hn::ShiftLeft<kFrontRootBits>(hn::ShiftRight<Map::kMaximumDepth>(cellV)),
+                              hn::ShiftRight<Map::kMaximumDepth>(cellU));
+  const auto* roots = reinterpret_cast<const std::int32_t*>(map.roots.data() + map.faceOffset[Map::kFrontFace]);
+  const I root = hn::GatherIndex(di, roots, rootIndex);
+  const I depthMask = hn::Set(di, (1 << Map::kDepthBits) - 1);
+  const I depth = hn::And(root, depthMask);
+  const I deepest = hn::Set(di, Map::kMaximumDepth);
+  const I shift = hn::Sub(deepest, depth);
+  const I mask = hn::Set(di, (1 << Map::kMaximumDepth) - 1);
+  const I index =
+      hn::Add(hn::ShiftRight<Map::kDepthBits>(root),
+              hn::Add(hn::Shl(hn::Shr(hn::And(cellV, mask), shift), depth), hn::Shr(hn::And(cellU, mask), shift)));
+  const I entry = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.patchIndex.data()), index);
+  const I span = hn::Sub(deepest, hn::And(entry, depthMask));
+  // 2^-span by its exponent bits.
+  const V reciprocal = hn::BitCast(d, hn::ShiftLeft<23>(hn::Sub(hn::Set(di, 127), span)));
+  const auto local = [&](V x, I c) {
+    return hn::Mul(hn::Sub(x, hn::ConvertTo(d, hn::Shl(hn::Shr(c, span), span))), reciprocal);
+  };
+  hn::Store(hn::ShiftRight<Map::kDepthBits>(entry), di, places.patch.data());
+  hn::Store(length, d, places.length.data());
+  hn::Store(local(u, cellU), d, places.u.data());
+  hn::Store(local(v, cellV), d, places.v.data());
+  return hn::Not(front);
 }
 
 /// One vector of pixels.
@@ -121,8 +197,8 @@ HWY_INLINE void applyVector(const Map& map, const float* source, float* destinat
   auto linear = map.linearNormalCount == 0 ? hn::Lt(zero, zero) : finite;
   const float* normal = map.linearNormals.data();
   for (int k = 0; k < map.linearNormalCount; ++k, normal += 3) {
-    linear = hn::And(linear, hn::Ge(dot(hn::Set(d, normal[0]), hn::Set(d, normal[1]), hn::Set(d, normal[2]), r, g, b),
-                                    zero));
+    linear = hn::And(linear,
+                     hn::Ge(dot(hn::Set(d, normal[0]), hn::Set(d, normal[1]), hn::Set(d, normal[2]), r, g, b), zero));
   }
   const float* m = map.linearMatrix.data();
   const auto row = [&](int k) {
@@ -135,18 +211,27 @@ HWY_INLINE void applyVector(const Map& map, const float* source, float* destinat
   if (hn::AllFalse(d, rest)) {
     return;
   }
-  HWY_ALIGN std::array<float, kMostLanes> reds;
-  HWY_ALIGN std::array<float, kMostLanes> greens;
-  HWY_ALIGN std::array<float, kMostLanes> blues;
-  HWY_ALIGN std::array<std::uint8_t, (kMostLanes + 7) / 8 + 8> bits{};
-  hn::Store(r, d, reds.data());
-  hn::Store(g, d, greens.data());
-  hn::Store(b, d, blues.data());
-  hn::StoreMaskBits(d, rest, bits.data());
-  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    if ((bits[lane / 8] >> (lane % 8) & 1U) != 0U) {
-      const std::array<float, 3> rgb = {reds[lane], greens[lane], blues[lane]};
-      applyPatch(locate(map, rgb.data()), destination + 4 * lane);
+  Places places;
+  const auto beyond =
+      locateOnFront(map, hn::IfThenElseZero(rest, r), hn::IfThenElseZero(rest, g), hn::IfThenElseZero(rest, b), places);
+  HWY_ALIGN std::array<float, kMostLanes> alphas;
+  hn::Store(a, d, alphas.data());
+  HWY_ALIGN std::array<std::uint8_t, 8> restBits{};
+  HWY_ALIGN std::array<std::uint8_t, 8> beyondBits{};
+  hn::StoreMaskBits(d, rest, restBits.data());
+  hn::StoreMaskBits(d, hn::And(rest, beyond), beyondBits.data());
+  unsigned todo = restBits[0] | static_cast<unsigned>(restBits[1]) << 8U;
+  const unsigned far = beyondBits[0] | static_cast<unsigned>(beyondBits[1]) << 8U;
+  for (; todo != 0; todo &= todo - 1U) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(todo));
+    float* pixel = destination + 4 * lane;
+    if ((far >> lane & 1U) == 0U) {
+      const float* patch = map.patches.data() + static_cast<std::size_t>(places.patch[lane]) * Map::kPatchFloats;
+      applyPatch(patch, places.length[lane], places.u[lane], places.v[lane], alphas[lane], pixel);
+    } else {
+      const std::array<float, 3> rgb = {pixel[0], pixel[1], pixel[2]};  // still the source's
+      const Place place = locate(map, rgb.data());
+      applyPatch(place.patch, place.length, place.u, place.v, alphas[lane], pixel);
     }
   }
 }

@@ -33,8 +33,7 @@ PerceptualMetric::PerceptualMetric(const spectral::RgbSpace& space)
 
 Eigen::Matrix3d PerceptualMetric::at(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const {
   const double largest = (m_relativeFromRgb * input).cwiseAbs().maxCoeff();
-  const double luminance =
-      std::max({m_xyzFromRgb.row(1).dot(input), kLeastRelativeLuminance * largest, 1e-30});
+  const double luminance = std::max({m_xyzFromRgb.row(1).dot(input), kLeastRelativeLuminance * largest, 1e-30});
   const double exposure = kProbeLuminance / luminance;
   const Eigen::Vector3d ratio = exposure * (m_relativeFromRgb * output);
   const Compressed x = compress(ratio.x());
@@ -42,8 +41,8 @@ Eigen::Matrix3d PerceptualMetric::at(const Eigen::Vector3d& input, const Eigen::
   const Compressed z = compress(ratio.z());
 
   Eigen::Matrix3d labFromRatio;
-  labFromRatio << 0.0, 116.0 * y.slope, 0.0,               //
-      500.0 * x.slope, -500.0 * y.slope, 0.0,              //
+  labFromRatio << 0.0, 116.0 * y.slope, 0.0,   //
+      500.0 * x.slope, -500.0 * y.slope, 0.0,  //
       0.0, 200.0 * y.slope, -200.0 * z.slope;
   const double a = 500.0 * (x.value - y.value);
   const double b = 200.0 * (y.value - z.value);
@@ -56,7 +55,7 @@ Eigen::Matrix3d PerceptualMetric::at(const Eigen::Vector3d& input, const Eigen::
   const double cosine = chroma > 0.0 ? a / chroma : 1.0;
   const double sine = chroma > 0.0 ? b / chroma : 0.0;
   Eigen::Matrix3d weighted;
-  weighted << 1.0, 0.0, 0.0,  //
+  weighted << 1.0, 0.0, 0.0,                                                //
       0.0, cosine / (1.0 + 0.045 * chroma), sine / (1.0 + 0.045 * chroma),  //
       0.0, -sine / (1.0 + 0.015 * chroma), cosine / (1.0 + 0.015 * chroma);
   return weighted * labFromRatio * exposure * m_relativeFromRgb;

@@ -64,7 +64,8 @@ class ReducedSystem {
 
   bool isFree(int band) const { return m_states[band] == BandState::Free && band != m_pin; }
   double heldValue(int band) const {
-    return m_held == Held::AtBounds && band >= 0 && band < m_bandCount && m_states[band] == BandState::AtOne ? 1.0 : 0.0;
+    return m_held == Held::AtBounds && band >= 0 && band < m_bandCount && m_states[band] == BandState::AtOne ? 1.0
+                                                                                                             : 0.0;
   }
   void findRuns();
   void eliminate(Columns& columns) const;

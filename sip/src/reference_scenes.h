@@ -34,8 +34,8 @@ class DatasetScene {
   int triangleCount() const { return static_cast<int>(m_triangles.size()); }
 
  private:
-  Eigen::Matrix3Xd m_responses;    ///< unit-sum rays of the merged samples
-  Eigen::MatrixXd m_spectra;       ///< B x n, scaled likewise
+  Eigen::Matrix3Xd m_responses;  ///< unit-sum rays of the merged samples
+  Eigen::MatrixXd m_spectra;     ///< B x n, scaled likewise
   std::vector<std::array<int, 3>> m_triangles;
   std::vector<Eigen::Matrix3d> m_barycentric;  ///< sample weights from response
   std::optional<FeasibleCone> m_cone;

@@ -76,7 +76,9 @@ struct Problem {
   }
 };
 
-double signOf(BandState bound) { return bound == BandState::AtOne ? -1.0 : 1.0; }
+double signOf(BandState bound) {
+  return bound == BandState::AtOne ? -1.0 : 1.0;
+}
 
 /// Force and release. Returns whether it settled; `states` then holds the active set, `spectrum` the answer and
 /// `response`, where asked for, the linear piece.
@@ -214,8 +216,7 @@ SmoothestSpectrumSolver::SmoothestSpectrumSolver(Eigen::Matrix3Xd weights, Upper
   }
   BandStates free;
   free.fill(BandState::Free);
-  m_unconstrained =
-      ReducedSystem(m_lanes, free, nullptr, ReducedSystem::Held::AtBounds, bandCount() / 2).response();
+  m_unconstrained = ReducedSystem(m_lanes, free, nullptr, ReducedSystem::Held::AtBounds, bandCount() / 2).response();
 }
 
 std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solve(const Eigen::Vector3d& tristimulus,

@@ -137,8 +137,8 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
 
   const Eigen::Vector3d white = spec.space.whiteXyz();
   const Eigen::Matrix3d xyzFromNormalised = input.xyzFromResponse * input.white.asDiagonal();
-  state->responseFromRgb = xyzFromNormalised.inverse() *
-                           spectral::adaptXyz(spec.cat, white, input.whiteXyz()) * spec.space.xyzFromRgb();
+  state->responseFromRgb =
+      xyzFromNormalised.inverse() * spectral::adaptXyz(spec.cat, white, input.whiteXyz()) * spec.space.xyzFromRgb();
 
   // The output's gain in cone space: D W/W_out + (1 - D) W/W_in.
   const Eigen::Matrix3d cones = spectral::lmsFromXyz(spec.cat);
@@ -156,7 +156,8 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   }
   const Eigen::Matrix3d rgbFromOutputXyz =
       exposure * spec.space.rgbFromXyz() * cones.inverse() * gain.matrix().asDiagonal() * cones;
-  state->rgbFromSpectrum = rgbFromOutputXyz * output.xyzFromResponse * bandWeights(output.light, output.curves, bandCount);
+  state->rgbFromSpectrum =
+      rgbFromOutputXyz * output.xyzFromResponse * bandWeights(output.light, output.curves, bandCount);
 
   const Eigen::Matrix3Xd weights =
       input.white.cwiseInverse().asDiagonal() * bandWeights(input.light, input.curves, bandCount);
@@ -229,7 +230,7 @@ void SpectralTransform::apply(std::span<float> rgba) const {
 }
 
 SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vector3d& rgb,
-                                                             const Linearisation* neighbour) const {
+                                                              const Linearisation* neighbour) const {
   Linearisation local;
   if (m_state->identity) {
     return {rgb, Eigen::Matrix3d::Identity(), {}};
@@ -259,8 +260,7 @@ SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vecto
     }
     inside.noalias() = m_state->rgbFromSpectrum.lazyProduct(spectrumFromTarget);
   }
-  local.matrix = (inside * projection.matrix +
-                  m_state->extension * (Eigen::Matrix3d::Identity() - projection.matrix)) *
+  local.matrix = (inside * projection.matrix + m_state->extension * (Eigen::Matrix3d::Identity() - projection.matrix)) *
                  m_state->responseFromRgb;
   local.value = local.matrix * rgb;
   return local;
@@ -282,16 +282,28 @@ bool SpectralTransform::isFeasible(const Eigen::Vector3d& rgb) const {
   return rgb.allFinite() && m_state->domain().contains(m_state->responseFromRgb * rgb);
 }
 
-bool SpectralTransform::isIdentity() const { return m_state->identity; }
-int SpectralTransform::bandCount() const { return m_state->solver->bandCount(); }
-const spectral::RgbSpace& SpectralTransform::space() const { return m_state->space; }
+bool SpectralTransform::isIdentity() const {
+  return m_state->identity;
+}
+int SpectralTransform::bandCount() const {
+  return m_state->solver->bandCount();
+}
+const spectral::RgbSpace& SpectralTransform::space() const {
+  return m_state->space;
+}
 Eigen::Matrix3d SpectralTransform::unconstrainedMatrix() const {
   return m_state->identity ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
                            : Eigen::Matrix3d(m_state->extension * m_state->responseFromRgb);
 }
-Eigen::Matrix3d SpectralTransform::responseFromRgb() const { return m_state->responseFromRgb; }
-Eigen::Vector3d SpectralTransform::whiteXyz() const { return m_state->space.whiteXyz(); }
-SpectralTransform::Diagnostics SpectralTransform::diagnostics() const { return m_state->diagnostics; }
+Eigen::Matrix3d SpectralTransform::responseFromRgb() const {
+  return m_state->responseFromRgb;
+}
+Eigen::Vector3d SpectralTransform::whiteXyz() const {
+  return m_state->space.whiteXyz();
+}
+SpectralTransform::Diagnostics SpectralTransform::diagnostics() const {
+  return m_state->diagnostics;
+}
 
 std::vector<Eigen::Vector3d> SpectralTransform::linearConeCorners() const {
   if (m_state->identity || m_state->dataset || m_state->prior || m_state->cone->rank() < 3) {

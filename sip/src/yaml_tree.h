@@ -11,17 +11,17 @@ namespace metamer::sip {
 struct YamlNode {
   enum class Kind { Null, Scalar, Sequence, Map };
   Kind kind = Kind::Null;
-  std::string text;     ///< of a scalar
-  bool quoted = false;  ///< a scalar in quotes
-  int line = 1;         ///< from 1
-  std::vector<YamlNode> items;                             ///< of a sequence
-  std::vector<std::pair<std::string, YamlNode>> members;   ///< of a map, in their order; keys may repeat
+  std::string text;                                       ///< of a scalar
+  bool quoted = false;                                    ///< a scalar in quotes
+  int line = 1;                                           ///< from 1
+  std::vector<YamlNode> items;                            ///< of a sequence
+  std::vector<std::pair<std::string, YamlNode>> members;  ///< of a map, in their order; keys may repeat
 
   std::string kindName() const;
 };
 
-/// Parses one document. Aliases, anchors, tags, a second document, control characters, more than kDeepestYaml levels and
-/// more than kMostYamlNodes nodes are refused: a recipe needs none of them, and with them a small file can be an
+/// Parses one document. Aliases, anchors, tags, a second document, control characters, more than kDeepestYaml levels
+/// and more than kMostYamlNodes nodes are refused: a recipe needs none of them, and with them a small file can be an
 /// endless one.
 /// @throws spectral::InputError with the line
 YamlNode parseYaml(const std::string& text, const std::string& where);

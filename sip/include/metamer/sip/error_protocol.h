@@ -28,8 +28,8 @@ class ErrorProtocol {
     bool insideGamutOnly = false;  ///< leave out probes with a negative component: what a log cube cannot hold
   };
   struct Probe {
-    std::string name;      ///< "xy 0.3127 0.3290", "patch 5 blue flower", "ring 12"
-    Eigen::Vector3d rgb;   ///< at stop 0
+    std::string name;     ///< "xy 0.3127 0.3290", "patch 5 blue flower", "ring 12"
+    Eigen::Vector3d rgb;  ///< at stop 0
   };
   struct Report {
     double mean = 0;

@@ -39,15 +39,15 @@ struct HomogeneousMap {
   /// The linear cone: n . rgb >= 0 for all. Count 0: there is none.
   std::array<float, 3 * kMostLinearNormals> linearNormals{};
   int linearNormalCount = 0;
-  bool identity = false;               ///< apply() copies
-  std::vector<std::uint32_t> roots;    ///< face by face, row by row: start in patchIndex << kDepthBits | depth
+  bool identity = false;             ///< apply() copies
+  std::vector<std::uint32_t> roots;  ///< face by face, row by row: start in patchIndex << kDepthBits | depth
   std::array<std::uint32_t, kFaceCount> faceOffset{};  ///< of a face's first root
   std::vector<std::uint32_t> patchIndex;  ///< dense tables of the root cells: patch << kDepthBits | its level
-  std::vector<float> patches;                          ///< kPatchFloats a patch
+  std::vector<float> patches;             ///< kPatchFloats a patch
 
   /// What the build did.
   struct Statistics {
-    int solves = 0;           ///< exact colours computed
+    int solves = 0;  ///< exact colours computed
     int patches = 0;
     double largestError = 0;  ///< at the checked points, approximate CIEDE2000 at Y = 0.18
   };

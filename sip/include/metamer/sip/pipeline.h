@@ -27,11 +27,11 @@ struct Pipeline {
 /// A pipeline made ready: what reaches the observer, scaled so that the perfect reflector has Y = 1 (camera: mean of
 /// the channels 1).
 struct PreparedPipeline {
-  spectral::DomainSamples light;                              ///< illuminant times filters, scaled
-  Eigen::Matrix<double, spectral::kDomainSize, 3> curves;     ///< observer
-  Eigen::Vector3d white;                                      ///< response to the perfect reflector
-  Eigen::Matrix3d xyzFromResponse;                            ///< scaled so that white has Y = 1
-  double filterTransmission = 1.0;                            ///< Y with the filters over Y without
+  spectral::DomainSamples light;                           ///< illuminant times filters, scaled
+  Eigen::Matrix<double, spectral::kDomainSize, 3> curves;  ///< observer
+  Eigen::Vector3d white;                                   ///< response to the perfect reflector
+  Eigen::Matrix3d xyzFromResponse;                         ///< scaled so that white has Y = 1
+  double filterTransmission = 1.0;                         ///< Y with the filters over Y without
 
   Eigen::Vector3d whiteXyz() const { return xyzFromResponse * white; }
 };

@@ -38,7 +38,7 @@ class SmoothestSpectrumSolver {
   struct Solution {
     Eigen::VectorXd reflectance;  ///< R, B values
     ActiveSet active;
-    int rounds = 0;  ///< reduced systems solved
+    int rounds = 0;         ///< reduced systems solved
     bool fellBack = false;  ///< whether the dual active-set method was needed
   };
 

@@ -75,10 +75,10 @@ class SpectralTransform {
   /// Whether a reflectance can make this colour under the input light (or the data set's hull holds it).
   bool isFeasible(const Eigen::Vector3d& rgb) const;
 
-  bool isIdentity() const;                   ///< both pipelines are the same: apply() copies
+  bool isIdentity() const;  ///< both pipelines are the same: apply() copies
   int bandCount() const;
   const spectral::RgbSpace& space() const;
-  Eigen::Matrix3d unconstrainedMatrix() const;   ///< the transform where no band is clamped
+  Eigen::Matrix3d unconstrainedMatrix() const;  ///< the transform where no band is clamped
   /// Corner rays, in RGB and in order round white, of the cone where unconstrainedMatrix() is exact; empty where there
   /// is none.
   std::vector<Eigen::Vector3d> linearConeCorners() const;
@@ -88,9 +88,9 @@ class SpectralTransform {
   Eigen::Vector3d whiteXyz() const;
 
   struct Diagnostics {
-    double conditionNumber = 0;   ///< of the white-normalised input weights: how far the input light sees three channels
-    int rank = 3;                 ///< channels that the input light really tells apart
-    double matrixGain = 0;        ///< largest singular value of unconstrainedMatrix()
+    double conditionNumber = 0;  ///< of the white-normalised input weights: how far the input light sees three channels
+    int rank = 3;                ///< channels that the input light really tells apart
+    double matrixGain = 0;       ///< largest singular value of unconstrainedMatrix()
   };
   Diagnostics diagnostics() const;
 
