@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace metamer::lutgen {
+
+/// Each adds one subcommand, which does its work when the command line has been parsed.
+void addBake(CLI::App& application);
+void addApply(CLI::App& application);
+void addList(CLI::App& application);
+
+}  // namespace metamer::lutgen

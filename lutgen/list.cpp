@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "metamer/ocio/lut_writer.h"
+#include "metamer/spectral/data_library.h"
+
+namespace metamer::lutgen {
+namespace {
+
+struct ListOptions {
+  std::string kind;
+  bool json = false;
+};
+
+std::vector<std::string> namesOf(const std::string& kind, const spectral::DataLibrary& library) {
+  if (kind == "illuminants") {
+    return library.illuminantNames();
+  }
+  if (kind == "observers") {
+    return library.observerNames();
+  }
+  if (kind == "filters") {
+    return library.filterNames();
+  }
+  return library.reflectanceSetNames();
+}
+
+/// One object a name: first its name, then what else is known of it.
+nlohmann::ordered_json entriesOf(const std::string& kind) {
+  auto entries = nlohmann::ordered_json::array();
+  if (kind == "formats") {
+    for (const ocio::LutFormat& format : ocio::lutFormats()) {
+      entries.push_back({{"name", format.name}, {"extension", format.extension}, {"holds", format.use}});
+    }
+    return entries;
+  }
+  const auto library = spectral::DataLibrary::openDefault();
+  if (kind == "spaces") {
+    for (const spectral::ColourSpace& space : library.colourSpaces()) {
+      entries.push_back(
+          {{"name", space.name}, {"pixels", space.encoding ? "log" : "linear"}, {"linear", space.linear.name}});
+    }
+    return entries;
+  }
+  for (const std::string& name : namesOf(kind, library)) {
+    const spectral::Provenance origin = library.provenance(kind, name);
+    entries.push_back({{"name", name}, {"file", origin.file}, {"source", origin.source}, {"licence", origin.licence}});
+  }
+  return entries;
+}
+
+void list(const ListOptions& options) {
+  const nlohmann::ordered_json entries = entriesOf(options.kind);
+  if (options.json) {
+    std::cout << entries.dump(2) << '\n';
+    return;
+  }
+  for (const auto& entry : entries) {
+    std::cout << entry["name"].get<std::string>();
+    if (options.kind == "formats") {
+      std::cout << '\t' << entry["extension"].get<std::string>() << '\t' << entry["holds"].get<std::string>();
+    }
+    std::cout << '\n';
+  }
+}
+
+}  // namespace
+
+void addList(CLI::App& application) {
+  CLI::App* command = application.add_subcommand("list", "Print what can be named");
+  const auto options = std::make_shared<ListOptions>();
+  command->add_option("KIND", options->kind, "illuminants, observers, filters, reflectances, spaces or formats")
+      ->required()
+      ->check(CLI::IsMember({"illuminants", "observers", "filters", "reflectances", "spaces", "formats"}));
+  command->add_flag("--json", options->json, "For programs: with files, sources and licences");
+  command->callback([options] { list(*options); });
+}
+
+}  // namespace metamer::lutgen

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <string>
+
+#include "commands.h"
+
+namespace {
+
+constexpr int kFailure = 1;
+constexpr int kUsageError = 2;
+
+/// One line on stderr, whatever the text holds.
+int fail(std::string message, int code) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::cerr << "lutgen: " << message << std::endl;
+  return code;
+}
+
+}  // namespace
+
+int main(int argumentCount, char** arguments) {
+  // What OpenColorIO would say comes as an exception as well.
+  OCIO_NAMESPACE::SetLoggingLevel(OCIO_NAMESPACE::LOGGING_LEVEL_NONE);
+  CLI::App application("Colour transforms from spectra: LUT files and pictures under another light.", "lutgen");
+  application.set_version_flag("--version", std::string("lutgen ") + METAMER_VERSION);
+  application.require_subcommand(1);
+  metamer::lutgen::addBake(application);
+  metamer::lutgen::addApply(application);
+  metamer::lutgen::addList(application);
+  try {
+    application.parse(argumentCount, arguments);
+    std::cout.flush();
+    return std::cout ? 0 : fail("standard output cannot be written", kFailure);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      return application.exit(error);  // help or version, on stdout
+    }
+    return fail(std::string(error.what()) + "; see lutgen --help", kUsageError);
+  } catch (const std::bad_alloc&) {
+    return fail("not enough memory", kFailure);
+  } catch (const std::exception& error) {
+    return fail(error.what(), kFailure);
+  }
+}

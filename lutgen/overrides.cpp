@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "overrides.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "metamer/spectral/input_error.h"
+
+namespace metamer::lutgen {
+namespace {
+
+using spectral::InputError;
+
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// A name as it is; a file by its whole path, so that it is not looked for beside the recipe.
+std::string fromWorkingFolder(const std::string& nameOrFile, const std::vector<std::string>& names) {
+  constexpr std::array<const char*, 5> kExtensions = {".csv", ".txt", ".tsv", ".spdx", ".json"};
+  const auto isName = [&](const std::string& name) { return lowerCase(name) == lowerCase(nameOrFile); };
+  const std::string extension = lowerCase(std::filesystem::path(nameOrFile).extension().string());
+  const bool isFile = nameOrFile.find_first_of("/\\") != std::string::npos ||
+                      std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+  if (!isFile || std::any_of(names.begin(), names.end(), isName)) {
+    return nameOrFile;
+  }
+  return std::filesystem::absolute(nameOrFile).lexically_normal().string();
+}
+
+/// The whole text as a finite number.
+std::optional<double> number(const std::string& text) {
+  double value = 0;
+  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+/// NAME[:density]; "none" for no filter.
+std::vector<sip::RecipeFilter> filtersFrom(const std::vector<std::string>& texts, const std::string& flag,
+                                           const std::vector<std::string>& names) {
+  std::vector<sip::RecipeFilter> filters;
+  for (const std::string& text : texts) {
+    if (text == "none") {
+      continue;
+    }
+    sip::RecipeFilter filter{text, 1.0};
+    const std::size_t colon = text.rfind(':');
+    if (colon != std::string::npos && colon > 0) {
+      if (const std::optional<double> density = number(text.substr(colon + 1))) {
+        if (*density < 0) {
+          throw InputError(flag, "density", text, "is below 0; a density is 0 or more");
+        }
+        filter = {text.substr(0, colon), *density};
+      }
+    }
+    filter.name = fromWorkingFolder(filter.name, names);
+    filters.push_back(filter);
+  }
+  return filters;
+}
+
+/// smooth | dataset:SET | prior:SET[:strength[:radius]]
+sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::string>& names) {
+  const std::string form = "write smooth, dataset:SET or prior:SET[:strength[:radius]]";
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ':') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  sip::RecipeScene scene;
+  if (parts[0] == "smooth" && parts.size() == 1) {
+    return scene;
+  }
+  const bool isPrior = parts[0] == "prior";
+  if ((!isPrior && parts[0] != "dataset") || parts.size() < 2 || parts.size() > (isPrior ? 4U : 2U) ||
+      parts[1].empty()) {
+    throw InputError("--scene", "scene", text, form);
+  }
+  scene.kind = isPrior ? sip::ReferenceScene::Kind::Prior : sip::ReferenceScene::Kind::Dataset;
+  scene.set = fromWorkingFolder(parts[1], names);
+  const auto readPart = [&](std::size_t index, double& value, double lowest, double highest, const std::string& what) {
+    if (parts.size() <= index) {
+      return;
+    }
+    const std::optional<double> read = number(parts[index]);
+    if (!read || *read < lowest || *read > highest) {
+      throw InputError("--scene", what, parts[index], "is no number of its range; " + form);
+    }
+    value = *read;
+  };
+  readPart(2, scene.strength, 0.0, 1.0, "strength");
+  readPart(3, scene.radius, 1e-6, 1.0, "radius");
+  return scene;
+}
+
+}  // namespace
+
+void addOverrides(CLI::App& command, Overrides& overrides) {
+  const std::string group = "Recipe, in place of what the file says";
+  command.add_option("--name", overrides.name, "Name of the transform")->group(group);
+  command.add_option("--illuminant-in", overrides.illuminantIn, "Light that the picture was shot under: NAME or FILE")
+      ->group(group);
+  command.add_option("--illuminant-out", overrides.illuminantOut, "Light that it should appear under: NAME or FILE")
+      ->group(group);
+  const std::string filter = "NAME or FILE, with :density where it is not 1; may be repeated; none for no filter";
+  command.add_option("--filter-in", overrides.filtersIn, filter)->group(group)->expected(1)->take_all();
+  command.add_option("--filter-out", overrides.filtersOut, filter)->group(group)->expected(1)->take_all();
+  command.add_option("--observer-in", overrides.observerIn, "NAME or FILE")->group(group);
+  command.add_option("--observer-out", overrides.observerOut, "NAME or FILE")->group(group);
+  command.add_option("--scene", overrides.scene, "smooth, dataset:SET or prior:SET[:strength[:radius]]")->group(group);
+  command.add_option("--space", overrides.space, "Working space, in and out: built in, or of the config in $OCIO")
+      ->group(group);
+  command.add_option("--cat", overrides.cat, "Chromatic adaptation")
+      ->group(group)
+      ->check(CLI::IsMember({"vonkries", "bradford", "cat02", "cat16"}));
+  command
+      .add_option("--adaptation", overrides.adaptation, "0: the eye stays with the input light ... 1: neutrals stay")
+      ->group(group)
+      ->check(CLI::Range(0.0, 1.0));
+  command.add_flag("--keep-exposure", overrides.keepExposure, "Keep the light that filters cost")->group(group);
+}
+
+sip::Recipe recipeWith(const std::string& recipeFile, const Overrides& overrides,
+                       const spectral::DataLibrary& library) {
+  sip::Recipe recipe;
+  if (!recipeFile.empty()) {
+    recipe = sip::readRecipe(recipeFile);
+  }
+  const auto replace = [](std::string& value, const std::optional<std::string>& text,
+                          const std::vector<std::string>& names) {
+    if (text) {
+      value = fromWorkingFolder(*text, names);
+    }
+  };
+  replace(recipe.input.illuminant, overrides.illuminantIn, library.illuminantNames());
+  replace(recipe.output.illuminant, overrides.illuminantOut, library.illuminantNames());
+  replace(recipe.input.observer, overrides.observerIn, library.observerNames());
+  replace(recipe.output.observer, overrides.observerOut, library.observerNames());
+  if (!overrides.filtersIn.empty()) {
+    recipe.input.filters = filtersFrom(overrides.filtersIn, "--filter-in", library.filterNames());
+  }
+  if (!overrides.filtersOut.empty()) {
+    recipe.output.filters = filtersFrom(overrides.filtersOut, "--filter-out", library.filterNames());
+  }
+  if (overrides.scene) {
+    recipe.scene = sceneFrom(*overrides.scene, library.reflectanceSetNames());
+  }
+  if (overrides.cat) {
+    recipe.cat = spectral::chromaticAdaptationFromName(*overrides.cat);
+  }
+  recipe.name = overrides.name.value_or(recipe.name);
+  recipe.space = overrides.space.value_or(recipe.space);
+  recipe.adaptation = overrides.adaptation.value_or(recipe.adaptation);
+  recipe.keepExposure = recipe.keepExposure || overrides.keepExposure;
+  if (recipe.input.illuminant.empty()) {
+    throw CLI::ValidationError("--illuminant-in", "is needed where no recipe is given");
+  }
+  if (recipe.output.illuminant.empty()) {
+    throw CLI::ValidationError("--illuminant-out", "is needed where no recipe is given");
+  }
+  return recipe;
+}
+
+}  // namespace metamer::lutgen

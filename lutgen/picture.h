@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <OpenImageIO/imagebuf.h>
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <span>
+
+namespace metamer::lutgen {
+
+/// A picture in memory as float, with its metadata, windows and every channel.
+class Picture {
+ public:
+  /// @throws spectral::InputError: cannot be read, several parts, deep, no three colour channels
+  explicit Picture(const std::filesystem::path& file);
+
+  /// Calls `body` with the RGBA pixels of each row (alpha 1), shared among threads, and takes the colours back. Other
+  /// channels, and pixels with a component that is not finite, are left as they are.
+  /// @param threads  0: as many as the machine has
+  void forEachRow(const std::function<void(std::span<float> rgba)>& body, int threads);
+
+  /// Writes it whole or not at all, as float where the format can.
+  /// @throws spectral::InputError
+  void write(const std::filesystem::path& file) const;
+
+ private:
+  void changeRow(int row, const std::function<void(std::span<float> rgba)>& body);
+
+  OIIO::ImageBuf m_pixels;
+  std::array<int, 3> m_colours{};  ///< channels of red, green, blue
+};
+
+}  // namespace metamer::lutgen

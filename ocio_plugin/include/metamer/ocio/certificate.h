@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "metamer/ocio/representation.h"
+#include "metamer/sip/error_protocol.h"
+#include "metamer/sip/recipe.h"
+
+namespace metamer::ocio {
+
+/// One table or file that went into a transform.
+struct CertifiedInput {
+  std::string role;  ///< "input.illuminant", "output.filters[0]", ...
+  spectral::Provenance provenance;
+};
+
+/// What a written transform is, what it was made from, and how far it is from the converged engine. The same bytes for
+/// the same transform: no times, no folders of this machine.
+struct Certificate {
+  sip::Recipe recipe;
+  std::vector<CertifiedInput> inputs;
+  Representation representation = Representation::Identity;
+  std::string format;  ///< OCIO's name of the file format; empty for a transform that is not a file
+  int size = 0;        ///< nodes along a side of its table, 0 without one
+  std::string shaper;  ///< of a log cube; empty without one
+  int bandCount = 0;   ///< of the engine that made it
+  std::string gamut;   ///< working space of the probes
+  sip::ErrorProtocol::Options probes;
+  sip::ErrorProtocol::Report error;  ///< CIEDE2000 against 401 bands, through OCIO's CPU processor
+  sip::SpectralTransform::Diagnostics diagnostics;
+  std::string sha256;  ///< of the written file; empty for a transform that is not a file
+
+  /// The whole as JSON, fields in a fixed order, two spaces of indent, a newline at the end.
+  std::string json() const;
+  /// The heart of it for comments and metadata, one statement a line.
+  std::vector<std::string> lines() const;
+};
+
+/// The inputs that a recipe names. The hash of a user's own file is computed here, that of a table is its manifest's.
+std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spectral::DataLibrary& library);
+
+/// SHA-256 of bytes, lower-case hexadecimal.
+std::string sha256(const std::string& bytes);
+
+/// Version of this library, "0.1.0".
+std::string toolVersion();
+
+}  // namespace metamer::ocio

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <string>
+
+#include "metamer/sip/spectral_transform.h"
+
+namespace metamer::ocio {
+
+namespace OCIO = OCIO_NAMESPACE;
+
+/// How a spectral transform is put into OCIO operators, from the cheapest on.
+enum class Representation {
+  Identity,                ///< nothing: both pipelines are the same
+  Matrix,                  ///< the unconstrained matrix: exact where no band is clamped
+  LogCube,                 ///< a 3-D table over log-encoded RGB, tetrahedral; clips what the log signal cannot hold
+  ExposureInvariantChain,  ///< see exposure_invariant_chain.h
+};
+
+/// "identity", "matrix", "log cube", "exposure-invariant chain".
+std::string nameOf(Representation representation);
+
+inline constexpr int kSmallestTable = 3;
+inline constexpr int kLargestTable = 129;
+
+/// A transform as OCIO operators on the engine's linear RGB. Identity is an empty group, which OCIO knows to be a no-op.
+/// @param representation  any but LogCube, which works on a signal
+/// @param spec            what `transform` was made from
+/// @param size            nodes along a side of a table
+OCIO::GroupTransformRcPtr engineOperators(Representation representation, const sip::TransformSpec& spec,
+                                          const sip::SpectralTransform& transform, int size);
+
+/// A signal between 0 and 1 that stands for the engine's linear RGB.
+struct Signal {
+  OCIO::ConstTransformRcPtr toEngine;
+  OCIO::ConstTransformRcPtr fromEngine;
+};
+
+/// The table of a LogCube: signal in, signal out, `size` nodes over 0 ... 1 on each axis.
+OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const Signal& signal, int size);
+
+}  // namespace metamer::ocio

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/ocio/certificate.h"
+
+#include <openssl/evp.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "metamer/spectral/spectral_files.h"
+
+namespace metamer::ocio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Numbers to as many digits as mean something, so that they are the same wherever they are computed.
+double rounded(double value, int digits = 4) {
+  const double scale = std::pow(10.0, digits);
+  return std::isfinite(value) ? std::round(value * scale) / scale : value;
+}
+
+double significant(double value) {
+  if (!std::isfinite(value) || value == 0.0) {
+    return value;
+  }
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.5g", value);
+  return std::strtod(text.data(), nullptr);
+}
+
+/// A path as the user gave it, but for a folder of this machine.
+std::string portable(const std::string& name) {
+  const std::filesystem::path path(name);
+  return path.is_absolute() ? path.filename().string() : name;
+}
+
+std::string kindName(sip::ReferenceScene::Kind kind) {
+  switch (kind) {
+    case sip::ReferenceScene::Kind::Smooth:
+      return "smooth";
+    case sip::ReferenceScene::Kind::Dataset:
+      return "dataset";
+    case sip::ReferenceScene::Kind::Prior:
+      return "prior";
+  }
+  return {};
+}
+
+Json pipelineJson(const sip::RecipePipeline& pipeline) {
+  Json filters = Json::array();
+  for (const auto& filter : pipeline.filters) {
+    filters.push_back({{"name", portable(filter.name)}, {"density", filter.density}});
+  }
+  return {{"illuminant", portable(pipeline.illuminant)}, {"filters", filters}, {"observer", portable(pipeline.observer)}};
+}
+
+Json recipeJson(const sip::Recipe& recipe) {
+  Json output = pipelineJson(recipe.output);
+  output["adaptation"] = recipe.adaptation;
+  Json scene = {{"kind", kindName(recipe.scene.kind)}};
+  if (recipe.scene.kind != sip::ReferenceScene::Kind::Smooth) {
+    scene["set"] = portable(recipe.scene.set);
+  }
+  if (recipe.scene.kind == sip::ReferenceScene::Kind::Prior) {
+    scene["strength"] = recipe.scene.strength;
+    scene["radius"] = recipe.scene.radius;
+  }
+  return {{"metamer", 1},
+          {"name", recipe.name},
+          {"space", recipe.space},
+          {"input", pipelineJson(recipe.input)},
+          {"output", output},
+          {"scene", scene},
+          {"cat", spectral::nameOf(recipe.cat)},
+          {"keep_exposure", recipe.keepExposure}};
+}
+
+struct Policy {
+  const char* negatives;
+  const char* outOfRange;
+  const char* notANumber;
+};
+
+Policy policyOf(Representation representation) {
+  switch (representation) {
+    case Representation::Identity:
+      return {"kept", "kept", "kept"};
+    case Representation::Matrix:
+      return {"kept, linear", "kept, linear", "NaN in, NaN out, in that pixel alone"};
+    case Representation::LogCube:
+      return {"clipped below the shaper's signal 0", "clipped above the shaper's signal 1",
+              "a colour of the table, in that pixel alone"};
+    case Representation::ExposureInvariantChain:
+      return {"kept within what the observer can see; chromaticities beyond are clamped to its border, and colours that "
+              "are negative as a whole become black",
+              "32 stops below 0.18 and darker: to black in proportion; 32 stops above: clipped",
+              "a finite colour or NaN, in that pixel alone"};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string Certificate::json() const {
+  Json inputList = Json::array();
+  for (const auto& input : inputs) {
+    Json entry = {{"role", input.role}, {"name", portable(input.provenance.name)}};
+    const auto put = [&](const char* key, const std::string& value) {
+      if (!value.empty()) {
+        entry[key] = value;
+      }
+    };
+    put("file", portable(input.provenance.file));
+    put("sha256", input.provenance.sha256);
+    put("source", input.provenance.source);
+    put("licence", input.provenance.licence);
+    inputList.push_back(entry);
+  }
+  Json transform = {{"representation", nameOf(representation)}};
+  if (!format.empty()) {
+    transform["format"] = format;
+  }
+  if (size > 0) {
+    transform["size"] = size;
+  }
+  if (!shaper.empty()) {
+    transform["shaper"] = shaper;
+  }
+  transform["engine_bands"] = bandCount;
+  if (!sha256.empty()) {
+    transform["sha256"] = sha256;
+  }
+  const Policy policy = policyOf(representation);
+  const Json document = {
+      {"metamer_certificate", 1},
+      {"tool", {{"name", "metamer"}, {"version", toolVersion()}}},
+      {"recipe", recipeJson(recipe)},
+      {"inputs", inputList},
+      {"transform", transform},
+      {"range",
+       {{"gamut", gamut},
+        {"inside_gamut_only", probes.insideGamutOnly},
+        {"lowest_stop", probes.lowestStop},
+        {"highest_stop", probes.highestStop}}},
+      {"error",
+       {{"metric", "CIEDE2000"},
+        {"against", "spectral engine, 401 bands"},
+        {"mean", rounded(error.mean)},
+        {"p99", rounded(error.p99)},
+        {"max", rounded(error.max)},
+        {"count", error.count},
+        {"worst",
+         {{"name", error.worstProbe},
+          {"rgb", {significant(error.worstRgb[0]), significant(error.worstRgb[1]), significant(error.worstRgb[2])}}}}}},
+      {"diagnostics",
+       {{"condition_number", significant(diagnostics.conditionNumber)},
+        {"rank", diagnostics.rank},
+        {"matrix_gain", significant(diagnostics.matrixGain)}}},
+      {"policy",
+       {{"negatives", policy.negatives}, {"out_of_range", policy.outOfRange}, {"not_a_number", policy.notANumber}}}};
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::string> Certificate::lines() const {
+  const auto side = [](const sip::RecipePipeline& pipeline) {
+    std::string text = portable(pipeline.illuminant);
+    for (const auto& filter : pipeline.filters) {
+      std::array<char, 32> density{};
+      std::snprintf(density.data(), density.size(), ":%g", filter.density);
+      text += " + " + portable(filter.name) + density.data();
+    }
+    return text + " seen by " + portable(pipeline.observer);
+  };
+  std::array<char, 160> figures{};
+  std::snprintf(figures.data(), figures.size(),
+                "CIEDE2000 against the spectral engine: mean %.3f, p99 %.3f, max %.3f, stops %+d to %+d", error.mean,
+                error.p99, error.max, probes.lowestStop, probes.highestStop);
+  std::vector<std::string> result = {
+      "metamer " + toolVersion() + ": " + side(recipe.input) + " -> " + side(recipe.output),
+      "space " + recipe.space + ", " + nameOf(representation) + (shaper.empty() ? "" : ", shaper " + shaper),
+      figures.data(), "worst: " + error.worstProbe};
+  const Policy policy = policyOf(representation);
+  result.push_back(std::string("negatives: ") + policy.negatives);
+  return result;
+}
+
+std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spectral::DataLibrary& library) {
+  std::vector<CertifiedInput> inputs;
+  const auto add = [&](std::string role, const std::string& group, const std::string& name) {
+    spectral::Provenance provenance = library.provenance(group, name);
+    if (!provenance.file.empty() && provenance.sha256.empty()) {
+      provenance.sha256 = sha256(spectral::readTextFile(recipe.folder / name));
+    }
+    inputs.push_back({std::move(role), std::move(provenance)});
+  };
+  const auto addPipeline = [&](const std::string& side, const sip::RecipePipeline& pipeline) {
+    add(side + ".illuminant", "illuminants", pipeline.illuminant);
+    for (std::size_t k = 0; k < pipeline.filters.size(); ++k) {
+      add(side + ".filters[" + std::to_string(k) + "]", "filters", pipeline.filters[k].name);
+    }
+    add(side + ".observer", "observers", pipeline.observer);
+  };
+  addPipeline("input", recipe.input);
+  addPipeline("output", recipe.output);
+  if (recipe.scene.kind != sip::ReferenceScene::Kind::Smooth) {
+    add("scene.set", "reflectances", recipe.scene.set);
+  }
+  return inputs;
+}
+
+std::string sha256(const std::string& bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) {
+    throw std::runtime_error("libcrypto has no SHA-256");
+  }
+  std::string text;
+  for (unsigned int k = 0; k < length; ++k) {
+    std::array<char, 3> pair{};
+    std::snprintf(pair.data(), pair.size(), "%02x", digest[k]);
+    text += pair.data();
+  }
+  return text;
+}
+
+std::string toolVersion() { return METAMER_VERSION; }
+
+}  // namespace metamer::ocio

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "chromaticity_plane.h"
+#include "lattice_fit.h"
+
+namespace metamer::ocio {
+
+/// Ticks of a table lie on multiples of 1 / kTickSteps, so that a curve with this many steps bends at them exactly.
+inline constexpr int kTickSteps = 4096;
+
+/// A spectral transform over the plane of chromaticity. A node holds the output's (a, b), and the output's amount less
+/// the input's, in stops. What lies between the nodes is exact where the transform is its unconstrained matrix.
+struct ChromaticityTable {
+  ChromaticityPlane plane;
+  PlaneLattice lattice;
+};
+
+/// Chooses the plane, crowds the nodes where the transform bends, and solves their values.
+/// @param spec    what `transform` was made from
+/// @param size    nodes along a side
+/// @param fitted  false: the transform's own values at the nodes
+ChromaticityTable buildChromaticityTable(const sip::TransformSpec& spec, const sip::SpectralTransform& transform,
+                                         int size, bool fitted);
+
+}  // namespace metamer::ocio

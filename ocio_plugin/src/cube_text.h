@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "metamer/ocio/lut_writer.h"
+
+namespace metamer::ocio {
+
+/// A 3-D table as the text of a cube file: two formats that share an extension and little else.
+/// @param rgba  size^3 nodes of four floats, red fastest; the fourth is left out
+/// Iridas (Adobe): TITLE, LUT_3D_SIZE, DOMAIN_MIN and DOMAIN_MAX.
+std::string iridasCubeText(std::span<const float> rgba, int size, const LutDescription& description);
+/// Resolve: LUT_3D_SIZE and LUT_3D_INPUT_RANGE.
+std::string resolveCubeText(std::span<const float> rgba, int size, const LutDescription& description);
+
+}  // namespace metamer::ocio

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/ocio/pixel_processor.h"
+
+#include <string>
+
+#include "metamer/spectral/input_error.h"
+
+namespace metamer::ocio {
+
+PixelProcessor::PixelProcessor(const OCIO::ConstTransformRcPtr& transform) {
+  try {
+    const auto processor = OCIO::Config::CreateRaw()->getProcessor(transform);
+    m_isNoOp = processor->isNoOp();
+    // The default optimisations but for the fast, less exact logarithm: results are to be those of any release.
+    const auto flags = static_cast<OCIO::OptimizationFlags>(OCIO::OPTIMIZATION_DEFAULT & ~OCIO::OPTIMIZATION_FAST_LOG_EXP_POW);
+    m_processor = processor->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, flags);
+  } catch (const OCIO::Exception& error) {
+    throw spectral::InputError("OpenColorIO", "", "", error.what());
+  }
+}
+
+PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) {
+    throw spectral::InputError(file.string(), "LUT", "", "there is no such file; check the path");
+  }
+  auto transform = OCIO::FileTransform::Create();
+  // OCIO looks relative paths up in its search path, and keeps what it has read by name.
+  transform->setSrc(std::filesystem::absolute(file).string().c_str());
+  transform->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+  try {
+    return PixelProcessor(transform);
+  } catch (const spectral::InputError& error) {
+    throw spectral::InputError(file.string(), "LUT", "", std::string("cannot be read: ") + error.what());
+  }
+}
+
+void PixelProcessor::apply(std::span<float> rgba) const {
+  if (rgba.empty()) {
+    return;
+  }
+  OCIO::PackedImageDesc pixels(rgba.data(), static_cast<long>(rgba.size() / 4), 1, 4);
+  m_processor->apply(pixels);
+}
+
+}  // namespace metamer::ocio
