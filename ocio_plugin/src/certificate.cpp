@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "metamer/ocio/exposure_invariant_chain.h"
 #include "metamer/spectral/spectral_files.h"
 
 namespace metamer::ocio {
@@ -79,9 +80,9 @@ Json recipeJson(const sip::Recipe& recipe) {
 }
 
 struct Policy {
-  const char* negatives;
-  const char* outOfRange;
-  const char* notANumber;
+  std::string negatives;
+  std::string outOfRange;
+  std::string notANumber;
 };
 
 Policy policyOf(Representation representation) {
@@ -96,7 +97,7 @@ Policy policyOf(Representation representation) {
     case Representation::ExposureInvariantChain:
       return {"kept within what the observer can see; chromaticities beyond are clamped to its border, and colours that "
               "are negative as a whole become black",
-              "32 stops below 0.18 and darker: to black in proportion; 32 stops above: clipped",
+              std::to_string(kChainStops) + " stops below 0.18 and darker: to black in proportion; as far above: clipped",
               "a finite colour or NaN, in that pixel alone"};
   }
   return {};
@@ -183,7 +184,7 @@ std::vector<std::string> Certificate::lines() const {
       "space " + recipe.space + ", " + nameOf(representation) + (shaper.empty() ? "" : ", shaper " + shaper),
       figures.data(), "worst: " + error.worstProbe};
   const Policy policy = policyOf(representation);
-  result.push_back(std::string("negatives: ") + policy.negatives);
+  result.push_back("negatives: " + policy.negatives);
   return result;
 }
 

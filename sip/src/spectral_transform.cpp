@@ -47,7 +47,8 @@ Eigen::Matrix3Xd signalBasis(const Eigen::Matrix3Xd& weights, double& conditionN
 double exposureScale(const Eigen::Vector3d& colour) {
   int exponent = 0;
   std::frexp(colour.cwiseAbs().maxCoeff(), &exponent);
-  return std::ldexp(1.0, -exponent);
+  // The smallest denormals would need a scale beyond the largest double.
+  return std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
 }
 
 /// Clips a polygon in the plane of chromaticity, given by rays, to the half-space normal . ray >= 0.

@@ -33,8 +33,12 @@ class LoadedTable {
 
   /// Safe from several threads. A failed read throws and is tried again by the next call.
   const std::vector<Spectrum>& spectra() const {
-    std::call_once(m_once, [this] { m_spectra = read(); });
-    return m_spectra;
+    // Not call_once: under the thread sanitizer and some C++ libraries it hangs once a call has thrown.
+    const std::lock_guard lock(m_mutex);
+    if (!m_spectra) {
+      m_spectra = read();
+    }
+    return *m_spectra;
   }
 
  private:
@@ -54,8 +58,8 @@ class LoadedTable {
 
   std::filesystem::path m_file;
   ManifestTable m_description;
-  mutable std::once_flag m_once;
-  mutable std::vector<Spectrum> m_spectra;
+  mutable std::mutex m_mutex;
+  mutable std::optional<std::vector<Spectrum>> m_spectra;
 };
 
 /// Where a name stands.
@@ -133,7 +137,7 @@ std::string singular(const std::string& group) {
 
 struct DataLibrary::State {
   std::filesystem::path folder;
-  /// A deque, because a table's once_flag cannot move.
+  /// A deque, because a table's mutex cannot move.
   std::deque<LoadedTable> tables;
 
   std::vector<std::string> namesOf(const std::string& group) const {

@@ -11,7 +11,7 @@ namespace OCIO = OCIO_NAMESPACE;
 
 /// Exposures that the chain keeps apart: stops below and above 0.18 in its amount channel. Darker colours go straight
 /// to black, lighter ones stop there.
-inline constexpr double kChainStops = 32.0;
+inline constexpr int kChainStops = 28;
 
 struct ChainOptions {
   int size = 65;       ///< nodes along a side of the 3-D table, 3 ... 129

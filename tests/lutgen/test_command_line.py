@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""lutgen's contract with the shell: exit codes, one line of stderr, nothing half-written."""
+
+import json
+import os
+import unittest
+
+from lutgen import LutgenTest, lutgen
+
+DAY_TO_TUNGSTEN = ["--illuminant-in", "D65", "--illuminant-out", "A"]
+
+RECIPE = """metamer: 1
+name: night
+space: ACEScg
+input: {illuminant: D65}
+output: {illuminant: HP1, adaptation: 0.5}
+"""
+
+
+class Help(LutgenTest):
+    def test_help_goes_to_stdout(self):
+        for arguments in (["--help"], ["bake", "--help"], ["apply", "--help"], ["list", "--help"], ["--version"]):
+            self.assertNotEqual(self.assertWorks(*arguments), "")
+
+    def test_usage_errors(self):
+        for arguments in (
+            [],
+            ["bakery"],
+            ["bake"],
+            ["bake", "-o"],
+            ["bake", "--no-such-flag", "-o", "a.cube"],
+            ["bake", "-o", "a.cube"],
+            ["bake", "-o", "a.cube", "--illuminant-in", "D65"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "33x"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "1"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "130"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "1000000"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--adaptation", "2"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--adaptation", "nan"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--cat", "cat99"],
+            ["apply", "a.cube", "in.exr"],
+            ["list", "lamps"],
+        ):
+            with self.subTest(arguments):
+                self.assertFails(*arguments, code=2)
+
+
+class List(LutgenTest):
+    def test_lists_are_names_by_line_and_json(self):
+        for kind, name in [
+            ("illuminants", "D65"),
+            ("observers", "CIE 1931 2"),
+            ("filters", None),
+            ("reflectances", "colorchecker"),
+            ("spaces", "ACEScct"),
+            ("formats", "resolve_cube"),
+        ]:
+            lines = self.assertWorks("list", kind).splitlines()
+            entries = json.loads(self.assertWorks("list", kind, "--json"))
+            self.assertEqual([line.split("\t")[0] for line in lines], [entry["name"] for entry in entries])
+            self.assertGreater(len(lines), 2)
+            if name:
+                self.assertIn(name, [entry["name"] for entry in entries])
+
+
+class Bake(LutgenTest):
+    def test_every_format_has_a_certificate_beside_it(self):
+        (self.folder / "night.yaml").write_text(RECIPE)
+        for name, representation in [
+            ("a.ctf", "exposure-invariant chain"),
+            ("a.clf", "log cube"),
+            ("a.cube", "log cube"),
+        ]:
+            self.assertWorks("bake", "night.yaml", "-o", name, "--size", "17")
+            certificate = json.loads((self.folder / (name + ".json")).read_text())
+            self.assertEqual(certificate["transform"]["representation"], representation)
+            self.assertEqual(certificate["transform"]["size"], 17)
+            self.assertEqual(certificate["recipe"]["name"], "night")
+            self.assertEqual(certificate["recipe"]["output"]["adaptation"], 0.5)
+            self.assertLessEqual(certificate["error"]["mean"], certificate["error"]["max"])
+        self.assertEqual(len(list(self.folder.iterdir())), 7)
+
+    def test_overrides_say_the_same_as_a_recipe(self):
+        (self.folder / "night.yaml").write_text(RECIPE)
+        self.assertWorks("bake", "night.yaml", "-o", "a.cube")
+        self.assertWorks(
+            "bake", "-o", "b.cube", "--name", "night", "--illuminant-in", "D65", "--illuminant-out", "HP1",
+            "--adaptation", "0.5",
+        )
+        self.assertEqual((self.folder / "a.cube").read_bytes(), (self.folder / "b.cube").read_bytes())
+        self.assertEqual((self.folder / "a.cube.json").read_bytes(), (self.folder / "b.cube.json").read_bytes())
+
+    def test_filters_shaper_scene(self):
+        (self.folder / "gel.csv").write_text("nm,transmittance\n380,0.9\n580,0.2\n780,0.8\n")
+        self.assertWorks(
+            "bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--filter-out", "gel.csv:0.5", "--filter-out", "gel.csv",
+            "--shaper", "LogC3", "--scene", "prior:skin:0.5", "--keep-exposure", "--size", "9",
+        )
+        certificate = json.loads((self.folder / "a.cube.json").read_text())
+        self.assertEqual([f["density"] for f in certificate["recipe"]["output"]["filters"]], [0.5, 1.0])
+        self.assertEqual(certificate["transform"]["shaper"], "LogC3")
+        self.assertEqual(certificate["recipe"]["scene"], {"kind": "prior", "set": "skin", "strength": 0.5, "radius": 0.04})
+        self.assertNotIn(str(self.folder), (self.folder / "a.cube.json").read_text())
+
+    def test_bad_input_is_named(self):
+        (self.folder / "zero.csv").write_text("nm,transmittance\n380,0\n780,0\n")
+        (self.folder / "bad.yaml").write_text(RECIPE.replace("illuminant: HP1", "illuminant: HP9"))
+        (self.folder / "typo.yaml").write_text(RECIPE.replace("space", "spcae"))
+        (self.folder / "nan.yaml").write_text(RECIPE.replace("0.5", ".nan"))
+        for arguments, says in [
+            (["--illuminant-in", "D66", "--illuminant-out", "A"], ["illuminant 'D66'", "D65"]),
+            (["bad.yaml"], ["illuminant 'HP9'", "HP1"]),
+            (["typo.yaml"], ["typo.yaml:3", "spcae", "space"]),
+            (["nan.yaml"], ["nan.yaml:5", "adaptation", "0 to 1"]),
+            (["missing.yaml"], ["missing.yaml"]),
+            ([*DAY_TO_TUNGSTEN, "--filter-out", "zero.csv"], ["filters", "stop all the light"]),
+            ([*DAY_TO_TUNGSTEN, "--filter-out", "missing.csv"], ["missing.csv"]),
+            ([*DAY_TO_TUNGSTEN, "--observer-in", "CIE 1931 3"], ["observer 'CIE 1931 3'", "CIE 1931 2"]),
+            ([*DAY_TO_TUNGSTEN, "--space", "ACEScgg"], ["space 'ACEScgg'", "ACEScg"]),
+            ([*DAY_TO_TUNGSTEN, "--shaper", "log"], ["shaper 'log'", "ACEScct"]),
+            ([*DAY_TO_TUNGSTEN, "--scene", "dataset:nothing"], ["nothing", "list reflectances"]),
+        ]:
+            with self.subTest(arguments):
+                self.assertFails("bake", *arguments, "-o", "out.cube", says=says)
+
+    def test_unknown_extension_and_format(self):
+        self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", "a.png", says=["'.png'", "resolve_cube"])
+        self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", "a.clf", "--format", "resolve_cube", says=["*.cube"])
+
+    def test_places_that_cannot_be_written(self):
+        self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", "no/such/a.cube", says=["no/such/a.cube", "cannot be written"])
+        self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", ".", "--format", "iridas_cube", says=["."])
+        locked = self.folder / "locked"
+        locked.mkdir()
+        locked.chmod(0o500)
+        if os.geteuid() != 0:
+            self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", "locked/a.cube", says=["locked/a.cube"])
+        locked.chmod(0o700)
+
+    def test_an_earlier_file_survives_a_failure(self):
+        (self.folder / "a.cube").write_text("mine")
+        self.assertFails("bake", "--illuminant-in", "D65", "--illuminant-out", "nothing", "-o", "a.cube")
+        self.assertEqual((self.folder / "a.cube").read_text(), "mine")
+
+    def test_config_that_does_not_parse(self):
+        (self.folder / "bad.ocio").write_text("ocio_profile_version: [\n")
+        for config in ("bad.ocio", "missing.ocio"):
+            self.assertFails(
+                "bake", *DAY_TO_TUNGSTEN, "--space", "studio", "-o", "a.cube",
+                environment={"OCIO": str(self.folder / config)}, says=["$OCIO", config],
+            )
+
+
+class DataFolder(LutgenTest):
+    def test_missing_data_is_named(self):
+        self.assertFails("list", "illuminants", environment={"METAMER_DATA": "/nonexistent"}, says=["/nonexistent"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/ocio/exposure_invariant_chain.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "metamer/ocio/pixel_processor.h"
+#include "metamer/sip/error_protocol.h"
+#include "sip/sip_fixture.h"
+
+namespace metamer::ocio {
+namespace {
+
+constexpr int kBandCount = 161;
+
+std::array<float, 3> applied(const PixelProcessor& processor, const std::array<float, 3>& rgb) {
+  std::array<float, 4> pixel = {rgb[0], rgb[1], rgb[2], 0.25F};
+  processor.apply(pixel);
+  EXPECT_EQ(pixel[3], 0.25F);
+  return {pixel[0], pixel[1], pixel[2]};
+}
+
+PixelProcessor chainOf(const sip::TransformSpec& spec, const ChainOptions& options = {}) {
+  return PixelProcessor(exposureInvariantChain(spec, sip::SpectralTransform(spec, kBandCount), options));
+}
+
+class ChainPairTest : public testing::TestWithParam<std::size_t> {};
+
+// The goal of the design, over exposures twice as wide as the protocol's.
+TEST_P(ChainPairTest, HoldsTheProtocol) {
+  const auto& [from, to] = sip::lightPairs()[GetParam()];
+  const sip::TransformSpec spec = sip::specOf(from, to);
+  const PixelProcessor processor = chainOf(spec);
+  const sip::ErrorProtocol protocol(spec, sip::chart(), {.lowestStop = -20, .highestStop = 20});
+  const auto report = protocol.measure([&](std::span<float> rgba) { processor.apply(rgba); });
+  std::printf("%s -> %s: mean %.3f p99 %.3f max %.3f (%s)\n", from.c_str(), to.c_str(), report.mean, report.p99,
+              report.max, report.worstProbe.c_str());
+  EXPECT_LE(report.p99, 1.0);
+  EXPECT_LE(report.max, 3.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ChainPairTest, testing::Range(std::size_t{0}, std::size_t{6}));
+
+class ChainTest : public testing::Test {
+ protected:
+  ChainTest() : m_spec(sip::specOf("D65", "HP1")), m_transform(m_spec, kBandCount) {}
+  sip::TransformSpec m_spec;
+  sip::SpectralTransform m_transform;
+  PixelProcessor m_chain{exposureInvariantChain(m_spec, m_transform)};
+};
+
+// The amount is a float between 0 and 1 that stands for 57 stops: a unit in its last place is 2.4e-6 of the light, and it
+// is rounded a handful of times.
+TEST_F(ChainTest, AGainGoesThroughAsAGain) {
+  for (const std::array<float, 3>& colour :
+       {std::array{0.18F, 0.18F, 0.18F}, std::array{0.3F, 0.05F, 0.02F}, std::array{0.01F, 0.03F, 0.2F},
+        std::array{0.1F, 0.3F, -0.002F}}) {
+    const auto middle = applied(m_chain, colour);
+    for (int stop = -20; stop <= 20; ++stop) {
+      const float gain = std::ldexp(1.0F, stop);
+      const auto result = applied(m_chain, {gain * colour[0], gain * colour[1], gain * colour[2]});
+      const float size = std::max({std::abs(middle[0]), std::abs(middle[1]), std::abs(middle[2])});
+      for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_NEAR(result[k] / gain, middle[k], 2e-5 * static_cast<double>(size)) << "stop " << stop;
+      }
+    }
+  }
+}
+
+// Where no band is clamped the table is the identity, whatever its size: what is left is float rounding.
+TEST_F(ChainTest, IsTheMatrixWhereTheEngineIs) {
+  const PixelProcessor coarse = chainOf(m_spec, {.size = 33, .fitted = false});
+  const auto corners = m_transform.linearConeCorners();
+  ASSERT_GE(corners.size(), 3U);
+  for (const auto& corner : corners) {
+    // Half way from white, which is well inside the cone and, on any table, away from cells that cross its border.
+    const Eigen::Vector3d colour = Eigen::Vector3d::Ones() + 0.3 * corner / corner.cwiseAbs().maxCoeff();
+    const Eigen::Vector3d expected = m_transform.unconstrainedMatrix() * colour;
+    const Eigen::Vector3f in = colour.cast<float>();
+    const auto result = applied(coarse, {in[0], in[1], in[2]});
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(result[k], expected[static_cast<Eigen::Index>(k)], 1e-4 * expected.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+TEST_F(ChainTest, GreyRampIsMonotoneAndHasOneColour) {
+  const auto middle = applied(m_chain, {1.0F, 1.0F, 1.0F});
+  const Eigen::Vector3d exact = m_transform.apply(Eigen::Vector3d(1.0, 1.0, 1.0));
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(middle[k], exact[static_cast<Eigen::Index>(k)], 2e-5) << "white is held exactly";
+  }
+  std::array<float, 3> before = {-1.0F, -1.0F, -1.0F};
+  for (int step = 0; step < 4096; ++step) {
+    const float grey = 0.18F * std::exp2(-10.0F + 16.0F * static_cast<float>(step) / 4095.0F);
+    const auto result = applied(m_chain, {grey, grey, grey});
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_GT(result[k] * (middle[k] > 0 ? 1.0F : -1.0F), before[k]) << "step " << step;
+      before[k] = result[k] * (middle[k] > 0 ? 1.0F : -1.0F);
+      EXPECT_NEAR(result[k] / grey, middle[k], 3e-5);
+    }
+  }
+}
+
+TEST_F(ChainTest, NeutralsStayNeutralWhereTheEyeAdapts) {
+  sip::TransformSpec spec = m_spec;
+  spec.adaptation = 1.0;
+  const PixelProcessor chain = chainOf(spec);
+  for (const float grey : {1e-4F, 0.18F, 60.0F}) {
+    const auto result = applied(chain, {grey, grey, grey});
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(result[k] / grey, 1.0, 1e-4);
+    }
+  }
+}
+
+TEST_F(ChainTest, BlackIsBlackAndFinitePixelsStayFinite) {
+  for (const float value : applied(m_chain, {0.0F, 0.0F, 0.0F})) {
+    EXPECT_LE(std::abs(value), 1e-6F);
+  }
+  const float largest = std::numeric_limits<float>::max();
+  const float denormal = std::numeric_limits<float>::denorm_min();
+  const std::array<float, 14> values = {0.0F,   -0.0F,    denormal, -denormal, 1e-30F,  -1e-30F, 1e-6F,
+                                        0.18F,  -0.18F,   65504.0F, -65504.0F, 1e30F,   -1e30F,  largest};
+  for (const float r : values) {
+    for (const float g : values) {
+      for (const float b : values) {
+        for (const float value : applied(m_chain, {r, g, b})) {
+          ASSERT_TRUE(std::isfinite(value)) << r << " " << g << " " << b;
+        }
+      }
+    }
+  }
+}
+
+// A pixel that is not a number must not reach the others, or crash the look-up.
+TEST_F(ChainTest, NotANumberStaysInItsPixel) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  std::vector<float> pixels;
+  for (int k = 0; k < 33; ++k) {
+    pixels.insert(pixels.end(), {0.2F, 0.3F, 0.1F, 1.0F, nan, infinity, -infinity, 1.0F});
+  }
+  m_chain.apply(pixels);
+  for (std::size_t k = 0; k < pixels.size(); k += 8) {
+    EXPECT_EQ(pixels[k], pixels[0]);
+    EXPECT_TRUE(std::isfinite(pixels[k]));
+  }
+}
+
+// Lights that leave the engine a nearly or wholly singular problem: the chain must still be made, and be finite.
+TEST(ChainHardCaseTest, NarrowLights) {
+  for (const char* name : {"LED-RGB1", "HP1", "FL12"}) {
+    for (const bool isInput : {true, false}) {
+      const sip::TransformSpec spec = isInput ? sip::specOf(name, "D65") : sip::specOf("A", name);
+      const PixelProcessor chain = chainOf(spec, {.size = 17});
+      for (const float value : applied(chain, {0.2F, 0.2F, 0.2F})) {
+        EXPECT_TRUE(std::isfinite(value));
+      }
+    }
+  }
+  // One line: no two channels can be told apart.
+  sip::TransformSpec spec = sip::specOf("D65", "D65");
+  spec.input.illuminant = spectral::Spectrum("line", spectral::SpectralQuantity::SpectralPowerDistribution,
+                                             {588.0, 589.0, 590.0}, {0.0, 1.0, 0.0});
+  const PixelProcessor chain = chainOf(spec, {.size = 17});
+  for (const float value : applied(chain, {0.3F, 0.2F, 0.1F})) {
+    EXPECT_TRUE(std::isfinite(value));
+  }
+}
+
+}  // namespace
+}  // namespace metamer::ocio

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/ocio/lut_writer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "metamer/ocio/pending_file.h"
+#include "metamer/ocio/pixel_processor.h"
+#include "metamer/ocio/representation.h"
+#include "metamer/ocio/shaper.h"
+#include "sip/sip_fixture.h"
+#include "temporary_folder.h"
+
+namespace metamer::ocio {
+namespace {
+
+constexpr int kSize = 17;
+
+std::vector<float> probes(float low, float high) {
+  std::mt19937 random(7);
+  std::vector<float> rgba;
+  for (int k = 0; k < 2000; ++k) {
+    for (int channel = 0; channel < 3; ++channel) {
+      rgba.push_back(low + (high - low) * static_cast<float>(sip::unitRandom(random)));
+    }
+    rgba.push_back(0.5F);
+  }
+  return rgba;
+}
+
+class LutWriterTest : public testing::TestWithParam<std::size_t> {
+ protected:
+  const LutFormat& format() const { return lutFormats()[GetParam()]; }
+  /// A group that the format can hold, exactly.
+  OCIO::GroupTransformRcPtr group() const {
+    auto result = OCIO::GroupTransform::Create();
+    const Signal signal = {shaperTransform(spectral::LogEncoding::AcesCct, OCIO::TRANSFORM_DIR_INVERSE),
+                           shaperTransform(spectral::LogEncoding::AcesCct, OCIO::TRANSFORM_DIR_FORWARD)};
+    const auto spec = sip::specOf("D65", "A");
+    result->appendTransform(logCube(sip::SpectralTransform(spec), signal, kSize));
+    return result;
+  }
+};
+
+// The cubes have seven digits after the point, the others float's own, of which the lookup loses one.
+TEST_P(LutWriterTest, ReadsBackAsWhatWasWritten) {
+  const TemporaryFolder folder;
+  const auto file = folder / ("lut" + format().extension);
+  const LutDescription description{"name with \"quotes\" & <tags>", "id-1", {"first line", "second <line> & more"}};
+  PendingFile pending(file);
+  pending.write(lutText(format(), group(), kSize, description));
+  pending.commit();
+  std::vector<float> expected = probes(-0.2F, 1.2F);
+  std::vector<float> found = expected;
+  PixelProcessor(group()).apply(expected);
+  PixelProcessor::fromFile(file).apply(found);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    ASSERT_NEAR(found[k], expected[k], 1e-6 * std::max(1.0F, std::abs(expected[k]))) << k;
+  }
+}
+
+TEST_P(LutWriterTest, SaysWhatItIsAndIsTheSameEveryTime) {
+  const LutDescription description{"a name", "id-1", {"first line", "second line"}};
+  const std::string text = lutText(format(), group(), kSize, description);
+  for (const char* part : {"a name", "first line", "second line"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  }
+  EXPECT_EQ(text, lutText(format(), group(), kSize, description));
+}
+
+TEST_P(LutWriterTest, IsFoundByNameAndExtension) {
+  const std::string file = "out" + format().extension;
+  EXPECT_EQ(&lutFormat(file, format().name), &format());
+  EXPECT_EQ(lutFormat(file, "").extension, format().extension);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LutWriterTest, testing::Range(std::size_t{0}, lutFormats().size()),
+                         [](const auto& instance) { return "Format" + std::to_string(instance.index); });
+
+TEST(CubeTest, FlavoursKeepApart) {
+  auto identity = OCIO::GroupTransform::Create();
+  const LutDescription description{"n", "i", {}};
+  const std::string iridas = lutText(lutFormat("a.cube", "iridas_cube"), identity, 3, description);
+  const std::string resolve = lutText(lutFormat("a.cube", "resolve_cube"), identity, 3, description);
+  EXPECT_NE(iridas.find("DOMAIN_MIN 0 0 0\nDOMAIN_MAX 1 1 1\n"), std::string::npos);
+  EXPECT_EQ(iridas.find("INPUT_RANGE"), std::string::npos);
+  EXPECT_NE(resolve.find("LUT_3D_INPUT_RANGE 0.0 1.0\n"), std::string::npos);
+  EXPECT_EQ(resolve.find("DOMAIN"), std::string::npos);
+  // Red runs fastest, in plain decimals.
+  EXPECT_NE(resolve.find("0.0000000 0.0000000 0.0000000\n0.5000000 0.0000000 0.0000000\n1.0000000"), std::string::npos);
+  EXPECT_EQ(lutFormat("A.CUBE", "").name, "iridas_cube");
+}
+
+TEST(LutFormatTest, UnknownFormatsListTheKnown) {
+  for (const auto& [file, format] : {std::pair{"a.png", ""}, {"a", ""}, {"a.cube", "banana"}}) {
+    const std::string error = spectral::errorOf([file = file, format = format] { lutFormat(file, format); });
+    EXPECT_NE(error.find("resolve_cube (.cube)"), std::string::npos) << error;
+  }
+  const std::string error = spectral::errorOf([] { lutFormat("a.clf", "resolve_cube"); });
+  EXPECT_NE(error.find("name the file *.cube"), std::string::npos) << error;
+}
+
+TEST(PixelProcessorTest, RefusesFilesThatAreNoLut) {
+  const TemporaryFolder folder;
+  EXPECT_NE(spectral::errorOf([&] { PixelProcessor::fromFile(folder / "missing.cube"); }).find("no such file"),
+            std::string::npos);
+  std::ofstream(folder / "bad.cube") << "LUT_3D_SIZE 1000000\n0 0 0\n";
+  EXPECT_NE(spectral::errorOf([&] { PixelProcessor::fromFile(folder / "bad.cube"); }).find("cannot be read"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace metamer::ocio

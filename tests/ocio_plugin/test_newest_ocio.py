@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What lutgen writes, read by the newest OpenColorIO and by the one metamer is built against."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import PyOpenColorIO as ocio
+
+BIN = Path(os.environ["METAMER_BIN"])
+PAIRS = [("D65", "A"), ("D65", "HP1"), ("D65", "FL11"), ("D65", "LED-RGB1"), ("A", "D65"), ("FL11", "D50")]
+
+
+def newest(file, pixels):
+    transform = ocio.FileTransform(src=str(file), interpolation=ocio.INTERP_TETRAHEDRAL)
+    processor = ocio.Config.CreateRaw().getProcessor(transform)
+    flags = ocio.OptimizationFlags(int(ocio.OPTIMIZATION_DEFAULT) & ~int(ocio.OPTIMIZATION_FAST_LOG_EXP_POW))
+    cpu = processor.getOptimizedCPUProcessor(ocio.BIT_DEPTH_F32, ocio.BIT_DEPTH_F32, flags)
+    result = pixels.copy()
+    cpu.applyRGBA(result)
+    return result
+
+
+def built_against(file, pixels):
+    run = subprocess.run([BIN / "ocio_apply", file], input=pixels.tobytes(), capture_output=True, check=True)
+    return np.frombuffer(run.stdout, np.float32).reshape(pixels.shape)
+
+
+def bake(folder, name, *arguments):
+    file = Path(folder) / name
+    subprocess.run([BIN / "lutgen", "bake", "-o", file, *arguments], check=True)
+    return file
+
+
+def colours(count, seed=3):
+    """Positive colours of every hue and saturation, alpha 1."""
+    random = np.random.default_rng(seed)
+    pixels = np.ones((count, 4), np.float32)
+    pixels[:, :3] = random.random((count, 3)) ** 2 + 1e-3
+    return pixels
+
+
+class NewestOcio(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def test_chains_agree_over_forty_stops(self):
+        for pair in PAIRS:
+            # A name of its own: OCIO keeps what it has read by name.
+            file = bake(self.folder.name, f"{pair[0]}_{pair[1]}.ctf", "--illuminant-in", pair[0], "--illuminant-out", pair[1])
+            pixels = colours(4000)
+            worst = 0.0
+            for stop in range(-20, 21, 4):
+                exposed = pixels.copy()
+                exposed[:, :3] *= 2.0**stop
+                a, b = built_against(file, exposed), newest(file, exposed)
+                size = np.abs(a[:, :3]).max(axis=1, keepdims=True)
+                worst = max(worst, float((np.abs(a - b)[:, :3] / size).max()))
+            print(f"{pair[0]} -> {pair[1]}: releases differ by {worst:.2e}")
+            # The chain's amount is a float over 57 stops: one unit in its last place is 2.4e-6 of the light.
+            self.assertLess(worst, 1e-5)
+
+    def test_every_format_reads_alike(self):
+        for name, options in [("a.clf", []), ("a.cube", []), ("b.cube", ["--format", "resolve_cube"])]:
+            file = bake(self.folder.name, name, "--illuminant-in", "D65", "--illuminant-out", "HP1", *options)
+            pixels = colours(4000)
+            a, b = built_against(file, pixels), newest(file, pixels)
+            # A unit in the last place of the log signal, 6e-8, is a millionth of the light.
+            np.testing.assert_allclose(a, b, rtol=2e-5, atol=2e-6, err_msg=name)
+
+    def test_identity_is_a_no_op(self):
+        for name in ("a.ctf", "a.clf"):
+            file = bake(self.folder.name, name, "--illuminant-in", "D65", "--illuminant-out", "D65")
+            processor = ocio.Config.CreateRaw().getProcessor(ocio.FileTransform(src=str(file)))
+            self.assertTrue(processor.isNoOp(), name)
+
+    def test_gpu_shader_is_written(self):
+        file = bake(self.folder.name, "a.ctf", "--illuminant-in", "D65", "--illuminant-out", "A")
+        processor = ocio.Config.CreateRaw().getProcessor(ocio.FileTransform(src=str(file)))
+        shader = ocio.GpuShaderDesc.CreateShaderDesc(language=ocio.GPU_LANGUAGE_GLSL_4_0)
+        processor.getDefaultGPUProcessor().extractGpuShaderInfo(shader)
+        self.assertIn("OCIOMain", shader.getShaderText())
+
+
+if __name__ == "__main__":
+    unittest.main()

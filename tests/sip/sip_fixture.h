@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "metamer/sip/spectral_transform.h"
+#include "spectral/fixture.h"
+
+namespace metamer::sip {
+
+using spectral::errorOf;
+using spectral::testLibrary;
+
+/// The six pairs of lights that every accuracy figure is given for.
+const std::vector<std::pair<std::string, std::string>>& lightPairs();
+
+/// ACEScg, both observers CIE 1931 2, adaptation 0, smooth scene.
+TransformSpec specOf(const std::string& inputLight, const std::string& outputLight);
+
+/// The 24 patches that the error protocol uses.
+std::vector<spectral::Spectrum> chart();
+
+/// A set of data/ on the domain.
+std::vector<spectral::DomainSamples> samplesOf(const std::string& set);
+
+/// White-normalised weights of a light of data/ under CIE 1931 2: rows sum to 1.
+Eigen::Matrix3Xd normalisedWeights(const std::string& light, int bandCount);
+
+/// A few hundred colours that reflectances can make, by mixing blocks of bands; the same ones every run. Many lie close
+/// to the locus.
+std::vector<Eigen::Vector3d> feasibleTristimuli(const Eigen::Matrix3Xd& weights, int count, unsigned seed = 1);
+
+/// 0 ... 1, the same on every platform (the standard's distributions are not).
+inline double unitRandom(std::mt19937& random) {
+  return static_cast<double>(random()) / 4294967296.0;
+}
+
+}  // namespace metamer::sip
