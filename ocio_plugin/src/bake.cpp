@@ -152,9 +152,9 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, Lut
   if (representation == Representation::LogCube) {
     onSignal = logCube(prepared.transform, signal, certificate.size);
   } else if (representation != Representation::Identity) {
-    onSignal = inOrder({signal.toEngine,
-                        engineOperators(representation, prepared.spec, prepared.transform, certificate.size),
-                        signal.fromEngine});
+    onSignal =
+        inOrder({signal.toEngine, engineOperators(representation, prepared.spec, prepared.transform, certificate.size),
+                 signal.fromEngine});
   }
   if (isCube || space.isLog) {
     return {inOrder({onSignal}), signal.fromEngine, signal.toEngine};
@@ -193,8 +193,8 @@ Baked bake(const sip::Recipe& recipe, const spectral::DataLibrary& library, cons
   return baked;
 }
 
-Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& library,
-                     const std::filesystem::path& file, const std::string& formatName, const BakeOptions& options) {
+Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::filesystem::path& file,
+                     const std::string& formatName, const BakeOptions& options) {
   const LutFormat& format = lutFormat(file, formatName);
   // The places first: what cannot be written is not worth the work.
   PendingFile lut(file);

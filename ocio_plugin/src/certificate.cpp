@@ -55,7 +55,8 @@ Json pipelineJson(const sip::RecipePipeline& pipeline) {
   for (const auto& filter : pipeline.filters) {
     filters.push_back({{"name", portable(filter.name)}, {"density", filter.density}});
   }
-  return {{"illuminant", portable(pipeline.illuminant)}, {"filters", filters}, {"observer", portable(pipeline.observer)}};
+  return {
+      {"illuminant", portable(pipeline.illuminant)}, {"filters", filters}, {"observer", portable(pipeline.observer)}};
 }
 
 Json recipeJson(const sip::Recipe& recipe) {
@@ -95,10 +96,11 @@ Policy policyOf(Representation representation) {
       return {"clipped below the shaper's signal 0", "clipped above the shaper's signal 1",
               "a colour of the table, in that pixel alone"};
     case Representation::ExposureInvariantChain:
-      return {"kept within what the observer can see; chromaticities beyond are clamped to its border, and colours that "
-              "are negative as a whole become black",
-              std::to_string(kChainStops) + " stops below 0.18 and darker: to black in proportion; as far above: clipped",
-              "a finite colour or NaN, in that pixel alone"};
+      return {
+          "kept within what the observer can see; chromaticities beyond are clamped to its border, and colours that "
+          "are negative as a whole become black",
+          std::to_string(kChainStops) + " stops below 0.18 and darker: to black in proportion; as far above: clipped",
+          "a finite colour or NaN, in that pixel alone"};
   }
   return {};
 }
@@ -227,6 +229,8 @@ std::string sha256(const std::string& bytes) {
   return text;
 }
 
-std::string toolVersion() { return METAMER_VERSION; }
+std::string toolVersion() {
+  return METAMER_VERSION;
+}
 
 }  // namespace metamer::ocio

@@ -196,8 +196,8 @@ std::vector<ChromaticityPlane> chromaticityPlanes(const sip::TransformSpec& spec
   };
 
   // One axis for both sides, what comes out being taken back through the matrix. The sum of white-normalised responses
-  // spreads chromaticities as CIE xy does, which suits the eye; it is turned toward the axis of all colours as far as it
-  // must be.
+  // spreads chromaticities as CIE xy does, which suits the eye; it is turned toward the axis of all colours as far as
+  // it must be.
   const Eigen::FullPivLU<Eigen::Matrix3d> matrix(transform.unconstrainedMatrix());
   if (matrix.isInvertible()) {
     const Eigen::Matrix3d back = responseFromRgb * matrix.inverse();

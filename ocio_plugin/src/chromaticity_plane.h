@@ -24,13 +24,13 @@ struct ChromaticityFrame {
 
 /// The frames between which a spectral transform is tabulated.
 ///
-/// All that the input's observer can see lies in the unit square of the input's (a, b), and s and p1 are positive on all
-/// of it and on all that comes out. Where the transform is its unconstrained matrix, both frames give the same
+/// All that the input's observer can see lies in the unit square of the input's (a, b), and s and p1 are positive on
+/// all of it and on all that comes out. Where the transform is its unconstrained matrix, both frames give the same
 /// coordinates, so that the table is the identity there (unless the matrix is too nearly singular for that).
 struct ChromaticityPlane {
   ChromaticityFrame input;
   ChromaticityFrame output;
-  Eigen::Vector2d white;  ///< the input's (a, b) of RGB (1, 1, 1)
+  Eigen::Vector2d white;            ///< the input's (a, b) of RGB (1, 1, 1)
   sip::FeasibleCone feasible;       ///< what reflectances can make under the input's light
   Eigen::Matrix3d responseFromRgb;  ///< to ask it
 

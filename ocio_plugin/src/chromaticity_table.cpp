@@ -28,7 +28,9 @@ constexpr double kLeastDensity = 0.3;
 /// Samples along a side of a cell.
 constexpr int kSamplesPerSide = 4;
 
-bool usable(const Eigen::Vector3d& value) { return value.allFinite() && value.cwiseAbs().maxCoeff() < 1e3; }
+bool usable(const Eigen::Vector3d& value) {
+  return value.allFinite() && value.cwiseAbs().maxCoeff() < 1e3;
+}
 
 /// The colour at a point of the plane, at the protocol's luminance.
 Eigen::Vector3d colourAt(const ChromaticityPlane& plane, const Eigen::RowVector3d& luminance,
@@ -118,8 +120,8 @@ std::vector<double> spreadTicks(const std::vector<double>& at, const std::vector
   const int below = std::clamp(static_cast<int>(std::lround((count - 1) * atWhite / sum.back())), 1, count - 2);
   std::vector<double> ticks;
   for (int k = 0; k < count; ++k) {
-    const double target = k <= below ? atWhite * k / below
-                                     : atWhite + (sum.back() - atWhite) * (k - below) / (count - 1 - below);
+    const double target =
+        k <= below ? atWhite * k / below : atWhite + (sum.back() - atWhite) * (k - below) / (count - 1 - below);
     // On the curve's entries, so that a look-up in it bends nowhere else.
     double tick = std::round(interpolate(sum, at, target) * kTickSteps) / kTickSteps;
     tick = std::max(tick, ticks.empty() ? 0.0 : ticks.back() + 1.0 / kTickSteps);
@@ -134,9 +136,8 @@ struct PlacedTicks {
 };
 
 /// Ticks that crowd where the transform bends, along either coordinate, as seen on a grid of probes.
-PlacedTicks placeTicks(const std::array<std::vector<double>, 2>& probes,
-                                              const ChromaticityPlane& plane,
-                                              const sip::SpectralTransform& transform, int count) {
+PlacedTicks placeTicks(const std::array<std::vector<double>, 2>& probes, const ChromaticityPlane& plane,
+                       const sip::SpectralTransform& transform, int count) {
   const Eigen::Matrix3d xyzFromRgb = transform.space().xyzFromRgb();
   const Eigen::RowVector3d luminance = xyzFromRgb.row(1);
   struct Probe {
@@ -179,8 +180,8 @@ PlacedTicks placeTicks(const std::array<std::vector<double>, 2>& probes,
         if (before.feasible && here.feasible && after.feasible) {
           const double left = at[k] - at[k - 1];
           const double right = at[k + 1] - at[k];
-          const Eigen::Vector3d second = 2.0 / (left + right) *
-                                         ((after.value - here.value) / right - (here.value - before.value) / left);
+          const Eigen::Vector3d second =
+              2.0 / (left + right) * ((after.value - here.value) / right - (here.value - before.value) / left);
           bending += std::pow(std::max(0.0, second.dot(here.metric * second)), 0.5 * kBendingPower);
         }
       }

@@ -17,7 +17,9 @@ namespace {
 constexpr double kMiddle = 0.18;
 
 /// Slope of the amount's logarithm: the table's third axis spans 2 kChainStops and the toe below them.
-double amountSlope() { return 1.0 / (2.0 * kChainStops + 1.0 / std::numbers::ln2); }
+double amountSlope() {
+  return 1.0 / (2.0 * kChainStops + 1.0 / std::numbers::ln2);
+}
 
 /// The identity on two channels, slope * log2 on the third, with a straight toe that meets it smoothly and passes zero.
 OCIO::LogCameraTransformRcPtr amountLog(OCIO::TransformDirection direction) {
@@ -51,7 +53,8 @@ OCIO::Lut1DTransformRcPtr tickCurves(const std::array<std::vector<double>, 2>& t
       const double within = (at - along[cell[axis]]) / (along[cell[axis] + 1] - along[cell[axis]]);
       value[axis] = (static_cast<double>(cell[axis]) + within) / static_cast<double>(along.size() - 1);
     }
-    curve->setValue(static_cast<unsigned long>(entry), static_cast<float>(value[0]), static_cast<float>(value[1]), static_cast<float>(at));
+    curve->setValue(static_cast<unsigned long>(entry), static_cast<float>(value[0]), static_cast<float>(value[1]),
+                    static_cast<float>(at));
   }
   return curve;
 }
@@ -59,8 +62,7 @@ OCIO::Lut1DTransformRcPtr tickCurves(const std::array<std::vector<double>, 2>& t
 }  // namespace
 
 OCIO::GroupTransformRcPtr exposureInvariantChain(const sip::TransformSpec& spec,
-                                                 const sip::SpectralTransform& transform,
-                                                 const ChainOptions& options) {
+                                                 const sip::SpectralTransform& transform, const ChainOptions& options) {
   const int size = options.size;
   assert(size >= 3 && size <= 129);
   const auto [plane, lattice] = buildChromaticityTable(spec, transform, size, options.fitted);

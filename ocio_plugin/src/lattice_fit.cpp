@@ -44,7 +44,8 @@ namespace {
 class NormalEquations {
  public:
   explicit NormalEquations(const PlaneLattice& lattice)
-      : m_size(lattice.size()), m_blocks(4 * lattice.nodes.size(), Eigen::Matrix3d::Zero()),
+      : m_size(lattice.size()),
+        m_blocks(4 * lattice.nodes.size(), Eigen::Matrix3d::Zero()),
         m_right(lattice.nodes.size(), Eigen::Vector3d::Zero()) {}
 
   /// Adds metric-weighted squares of `sum_m coefficient[m] node[m] - value`.

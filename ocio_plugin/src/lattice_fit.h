@@ -35,8 +35,8 @@ struct LatticeSample {
   Eigen::Matrix3d metric;  ///< squared error of a deviation d: d' metric d; symmetric, positive semidefinite
 };
 
-/// Node values of least squared error over the samples, by sparse normal equations. Where samples leave nodes free, they
-/// keep to the shape of the values they came with.
+/// Node values of least squared error over the samples, by sparse normal equations. Where samples leave nodes free,
+/// they keep to the shape of the values they came with.
 /// @param lattice  its nodes are replaced
 /// @param held     a node that keeps its value
 void fitLattice(PlaneLattice& lattice, const std::vector<LatticeSample>& samples, std::size_t held);

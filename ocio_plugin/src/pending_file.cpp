@@ -20,7 +20,9 @@ struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
-std::string reason() { return "cannot be written: " + std::string(std::strerror(errno)); }
+std::string reason() {
+  return "cannot be written: " + std::string(std::strerror(errno));
+}
 
 }  // namespace
 

@@ -12,7 +12,8 @@ PixelProcessor::PixelProcessor(const OCIO::ConstTransformRcPtr& transform) {
     const auto processor = OCIO::Config::CreateRaw()->getProcessor(transform);
     m_isNoOp = processor->isNoOp();
     // The default optimisations but for the fast, less exact logarithm: results are to be those of any release.
-    const auto flags = static_cast<OCIO::OptimizationFlags>(OCIO::OPTIMIZATION_DEFAULT & ~OCIO::OPTIMIZATION_FAST_LOG_EXP_POW);
+    const auto flags =
+        static_cast<OCIO::OptimizationFlags>(OCIO::OPTIMIZATION_DEFAULT & ~OCIO::OPTIMIZATION_FAST_LOG_EXP_POW);
     m_processor = processor->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, flags);
   } catch (const OCIO::Exception& error) {
     throw spectral::InputError("OpenColorIO", "", "", error.what());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "metamer/spectral/input_error.h"
 
@@ -94,7 +95,8 @@ class TreeBuilder : public YAML::EventHandler {
       throw error(mark, "key", "", "a key must be a plain word");
     }
     m_hasKey = false;
-    return parent.members.emplace_back(std::move(m_key), std::move(node)).second;
+    parent.members.push_back({std::move(m_key), std::move(node)});
+    return parent.members.back().value;
   }
 
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YamlNode::Kind kind) {

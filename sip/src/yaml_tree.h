@@ -2,22 +2,28 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace metamer::sip {
+
+struct YamlMember;
 
 /// A YAML document of plain scalars, lists and maps, with the lines its parts stand on.
 struct YamlNode {
   enum class Kind { Null, Scalar, Sequence, Map };
   Kind kind = Kind::Null;
-  std::string text;                                       ///< of a scalar
-  bool quoted = false;                                    ///< a scalar in quotes
-  int line = 1;                                           ///< from 1
-  std::vector<YamlNode> items;                            ///< of a sequence
-  std::vector<std::pair<std::string, YamlNode>> members;  ///< of a map, in their order; keys may repeat
+  std::string text;                 ///< of a scalar
+  bool quoted = false;              ///< a scalar in quotes
+  int line = 1;                     ///< from 1
+  std::vector<YamlNode> items;      ///< of a sequence
+  std::vector<YamlMember> members;  ///< of a map, in their order; keys may repeat
 
   std::string kindName() const;
+};
+
+struct YamlMember {
+  std::string key;
+  YamlNode value;
 };
 
 /// Parses one document. Aliases, anchors, tags, a second document, control characters, more than kDeepestYaml levels

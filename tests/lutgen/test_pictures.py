@@ -59,9 +59,11 @@ class Apply(LutgenTest):
         self.picture("in.exr", pixels)
         exact, _, _ = self.applied("r.yaml", "in.exr")
         mapped, _, _ = self.applied("r.yaml", "in.exr", "--engine", "map")
-        np.testing.assert_allclose(mapped, exact, atol=1e-3)
+        # The map's tolerance, a tenth of a CIEDE2000 where kinks meet, is a few thousandths of light.
+        np.testing.assert_allclose(mapped, exact, atol=5e-3)
         self.assertWorks("bake", "r.yaml", "-o", "r.ctf")
         chain, _, _ = self.applied("r.ctf", "in.exr")
+        # Half a CIEDE2000 (the chain's p99) is about a hundredth of light.
         np.testing.assert_allclose(chain, exact, atol=1e-2)
 
     def test_identity_copies(self):

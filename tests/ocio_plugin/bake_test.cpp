@@ -99,7 +99,8 @@ TEST(BakeTest, CubeNodesAreExact) {
     const Eigen::Vector3d expected = engine.apply(light);
     processor.apply(pixel);
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_NEAR(pixel[k], spectral::encode(spectral::LogEncoding::AcesCct, expected[static_cast<Eigen::Index>(k)]), 2e-6);
+      EXPECT_NEAR(pixel[k], spectral::encode(spectral::LogEncoding::AcesCct, expected[static_cast<Eigen::Index>(k)]),
+                  2e-6);
     }
   }
 }

@@ -53,12 +53,11 @@ class ChainTest : public testing::Test {
   PixelProcessor m_chain{exposureInvariantChain(m_spec, m_transform)};
 };
 
-// The amount is a float between 0 and 1 that stands for 57 stops: a unit in its last place is 2.4e-6 of the light, and it
-// is rounded a handful of times.
+// The amount is a float between 0 and 1 that stands for 57 stops: a unit in its last place is 2.4e-6 of the light, and
+// it is rounded a handful of times.
 TEST_F(ChainTest, AGainGoesThroughAsAGain) {
-  for (const std::array<float, 3>& colour :
-       {std::array{0.18F, 0.18F, 0.18F}, std::array{0.3F, 0.05F, 0.02F}, std::array{0.01F, 0.03F, 0.2F},
-        std::array{0.1F, 0.3F, -0.002F}}) {
+  for (const std::array<float, 3>& colour : {std::array{0.18F, 0.18F, 0.18F}, std::array{0.3F, 0.05F, 0.02F},
+                                             std::array{0.01F, 0.03F, 0.2F}, std::array{0.1F, 0.3F, -0.002F}}) {
     const auto middle = applied(m_chain, colour);
     for (int stop = -20; stop <= 20; ++stop) {
       const float gain = std::ldexp(1.0F, stop);
@@ -124,8 +123,8 @@ TEST_F(ChainTest, BlackIsBlackAndFinitePixelsStayFinite) {
   }
   const float largest = std::numeric_limits<float>::max();
   const float denormal = std::numeric_limits<float>::denorm_min();
-  const std::array<float, 14> values = {0.0F,   -0.0F,    denormal, -denormal, 1e-30F,  -1e-30F, 1e-6F,
-                                        0.18F,  -0.18F,   65504.0F, -65504.0F, 1e30F,   -1e30F,  largest};
+  const std::array<float, 14> values = {0.0F,  -0.0F,  denormal, -denormal, 1e-30F, -1e-30F, 1e-6F,
+                                        0.18F, -0.18F, 65504.0F, -65504.0F, 1e30F,  -1e30F,  largest};
   for (const float r : values) {
     for (const float g : values) {
       for (const float b : values) {

@@ -100,7 +100,8 @@ TEST(WorkingSpaceTest, ALookInAConfigsSpace) {
   const auto config = studioConfig();
   const Baked own = bake(recipeIn("ACES2065-1"), testLibrary());
   for (const char* name : {"studio linear", "studio log", "studio video"}) {
-    const Baked baked = bake(recipeIn(name), testLibrary(), {.representation = {}, .size = 0, .shaper = {}, .config = config});
+    const Baked baked =
+        bake(recipeIn(name), testLibrary(), {.representation = {}, .size = 0, .shaper = {}, .config = config});
     EXPECT_LE(baked.certificate.error.p99, 1.0) << name;
     const WorkingSpace space = findWorkingSpace(name, testLibrary(), config);
     const std::array<float, 4> light = {0.2F, 0.3F, 0.15F, 1.0F};

@@ -321,7 +321,7 @@ TEST(RecipeTest, UnknownNamesListNearOnes) {
   const auto base = [] { return parse(kShortest); };
   Recipe recipe = base();
   recipe.output.illuminant = "HP11";
-  EXPECT_EQ(error(recipe).substr(0, 53), "output: illuminant 'HP11': unknown; near names: HP1;");
+  EXPECT_NE(error(recipe).find("output: illuminant 'HP11': unknown; near names: HP1;"), std::string::npos) << error(recipe);
   recipe = base();
   recipe.input.filters = {{"ISO Standard Lenz", 1.0}};
   EXPECT_NE(error(recipe).find("near names: ISO Standard Lens"), std::string::npos) << error(recipe);

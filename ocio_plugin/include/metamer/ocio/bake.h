@@ -17,9 +17,9 @@ namespace metamer::ocio {
 struct BakeOptions {
   /// Empty: Identity where the recipe does nothing, else what the format holds best.
   std::optional<Representation> representation;
-  int size = 0;                                  ///< nodes along a side; 0: 65 for a chain, 33 for a cube
-  std::optional<spectral::LogEncoding> shaper;   ///< of cubes of a linear space; empty: ACEScct
-  OCIO::ConstConfigRcPtr config;                 ///< where spaces that are not built in are looked up; may be null
+  int size = 0;                                 ///< nodes along a side; 0: 65 for a chain, 33 for a cube
+  std::optional<spectral::LogEncoding> shaper;  ///< of cubes of a linear space; empty: ACEScct
+  OCIO::ConstConfigRcPtr config;                ///< where spaces that are not built in are looked up; may be null
 };
 
 /// A recipe as an OCIO transform.
@@ -36,8 +36,7 @@ Baked bake(const sip::Recipe& recipe, const spectral::DataLibrary& library, cons
 /// Either both files appear or none.
 /// @param formatName  as lutFormat() takes it
 /// @throws spectral::InputError as above, and where the file cannot be written
-Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& library,
-                     const std::filesystem::path& file, const std::string& formatName = {},
-                     const BakeOptions& options = {});
+Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::filesystem::path& file,
+                     const std::string& formatName = {}, const BakeOptions& options = {});
 
 }  // namespace metamer::ocio

@@ -25,7 +25,8 @@ std::string nameOf(Representation representation);
 inline constexpr int kSmallestTable = 3;
 inline constexpr int kLargestTable = 129;
 
-/// A transform as OCIO operators on the engine's linear RGB. Identity is an empty group, which OCIO knows to be a no-op.
+/// A transform as OCIO operators on the engine's linear RGB. Identity is an empty group, which OCIO knows to be a
+/// no-op.
 /// @param representation  any but LogCube, which works on a signal
 /// @param spec            what `transform` was made from
 /// @param size            nodes along a side of a table
