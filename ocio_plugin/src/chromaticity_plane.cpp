@@ -112,6 +112,7 @@ Side sideAcross(const std::vector<Eigen::Vector2d>& points, double angle) {
 /// seen the straight borders are the line of purples and the line from green to red.
 std::array<Side, 2> bestParallelogram(const std::vector<Eigen::Vector2d>& points) {
   std::vector<Side> sides;
+  sides.reserve(kSideDirections);
   for (int i = 0; i < kSideDirections; ++i) {
     sides.push_back(sideAcross(points, std::numbers::pi * i / kSideDirections));
   }
@@ -138,6 +139,7 @@ ChromaticityFrame squareFrame(const std::vector<Eigen::Vector3d>& corners, const
   const Eigen::Vector3d first = axis.unitOrthogonal();
   const Eigen::Vector3d second = axis.normalized().cross(first);
   std::vector<Eigen::Vector2d> points;
+  points.reserve(corners.size());
   for (const auto& corner : corners) {
     points.emplace_back(first.dot(corner) / axis.dot(corner), second.dot(corner) / axis.dot(corner));
   }
@@ -183,6 +185,7 @@ std::vector<ChromaticityPlane> chromaticityPlanes(const sip::TransformSpec& spec
   const Eigen::Matrix3d rgbFromResponse = responseFromRgb.inverse();
   const std::vector<Eigen::Vector3d> in = spread(corners);
   std::vector<Eigen::Vector3d> out;
+  out.reserve(in.size());
   for (const auto& response : in) {
     out.push_back(transform.apply(rgbFromResponse * response));
   }

@@ -83,7 +83,7 @@ Eigen::Vector3d valueAt(const ChromaticityPlane& plane, const sip::SpectralTrans
                         const Eigen::RowVector3d& luminance, const Eigen::Vector2d& point) {
   for (double t = 1.0; t > 0.0; t -= 1.0 / 64.0) {
     const Eigen::Vector3d in = colourAt(plane, luminance, plane.white + t * (point - plane.white));
-    const Eigen::Vector3d value = tableValue(plane, in, transform.apply(in));
+    Eigen::Vector3d value = tableValue(plane, in, transform.apply(in));
     if (usable(value)) {
       return value;
     }
@@ -214,6 +214,7 @@ PlacedTicks placeTicks(const std::array<std::vector<double>, 2>& probes, const C
 
 std::vector<double> evenTicks(int count) {
   std::vector<double> ticks;
+  ticks.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     ticks.push_back(static_cast<double>(k) / (count - 1));
   }
@@ -286,6 +287,7 @@ ChromaticityTable buildChromaticityTable(const sip::TransformSpec& spec, const s
                                          int size, bool fitted) {
   const auto planes = chromaticityPlanes(spec, transform);
   std::vector<PlacedTicks> placed;
+  placed.reserve(planes.size());
   for (const auto& plane : planes) {
     placed.push_back(placeTicks({evenTicks(kProbesPerSide), evenTicks(kProbesPerSide)}, plane, transform, size));
   }

@@ -117,6 +117,20 @@ TEST_F(ChainTest, NeutralsStayNeutralWhereTheEyeAdapts) {
   }
 }
 
+// A scene that is curved even at white: there a least-squares fit alone would miss it.
+TEST_F(ChainTest, WhiteIsHeldWhereTheEngineIsCurved) {
+  sip::TransformSpec spec = m_spec;
+  spec.scene = {.kind = sip::ReferenceScene::Kind::Prior, .samples = sip::samplesOf("colorchecker"), .strength = 1.0};
+  const sip::SpectralTransform transform(spec, kBandCount);
+  const PixelProcessor chain(exposureInvariantChain(spec, transform, {.size = 9}));
+  const auto result = applied(chain, {1.0F, 1.0F, 1.0F});
+  const Eigen::Vector3d exact = transform.apply(Eigen::Vector3d(1.0, 1.0, 1.0));
+  for (std::size_t k = 0; k < 3; ++k) {
+    // The tick nearest to white is within 1 / 8192 of the plane.
+    EXPECT_NEAR(result[k], exact[static_cast<Eigen::Index>(k)], 5e-4);
+  }
+}
+
 TEST_F(ChainTest, BlackIsBlackAndFinitePixelsStayFinite) {
   for (const float value : applied(m_chain, {0.0F, 0.0F, 0.0F})) {
     EXPECT_LE(std::abs(value), 1e-6F);

@@ -34,6 +34,7 @@ std::vector<float> through(OCIO::TransformDirection direction, const std::vector
   PixelProcessor(shaperTransform(ShaperTest::GetParam(), direction)).apply(rgba);
   std::vector<float> result;
   for (std::size_t k = 0; k < rgba.size(); k += 4) {
+    EXPECT_EQ(rgba[k], rgba[k + 1]);
     EXPECT_EQ(rgba[k], rgba[k + 2]);
     result.push_back(rgba[k]);
   }
