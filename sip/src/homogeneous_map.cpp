@@ -138,8 +138,8 @@ class Builder {
     }
   }
 
-  /// Position in units of half the finest cell; `near` a node close by, for a first guess.
-  const Node& node(int face, int u, int v, const Node* near) {
+  /// Position in units of half the finest cell, between two nodes close by (the same twice where there is but one).
+  const Node& node(int face, int u, int v, const Node& a, const Node& b) {
     const std::uint64_t key = (static_cast<std::uint64_t>(face) << 40) | (static_cast<std::uint64_t>(u) << 20) |
                               static_cast<std::uint64_t>(v);
     const auto [place, isNew] = m_nodes.try_emplace(key);
@@ -154,7 +154,8 @@ class Builder {
     cube[(axis + 1) % 3] = 2.0 * u / steps - 1.0;
     cube[(axis + 2) % 3] = 2.0 * v / steps - 1.0;
     const Eigen::Vector3d rgb = m_rgbFromCube * cube;
-    made.exact = m_transform.linearise(rgb, near != nullptr ? &near->exact : nullptr);
+    const ActiveSet guess = between(a.exact.active, b.exact.active);
+    made.exact = m_transform.linearise(rgb, &guess);
     made.alongU = made.exact.matrix * m_rgbFromCube.col((axis + 1) % 3);
     made.alongV = made.exact.matrix * m_rgbFromCube.col((axis + 2) % 3);
     made.metric = m_metric.at(rgb, made.exact.value);
@@ -211,22 +212,25 @@ class Builder {
 
   /// Corner (u, v) and side of a cell in half finest cells.
   void refine(int face, int u, int v, int side, int level, int i, int j, std::vector<Placed>& placed) {
-    const Node& first = node(face, u, v, m_latest);
+    const Node& first = node(face, u, v, *m_latest, *m_latest);
     m_latest = &first;
-    const std::array<const Node*, 4> corners{&first, &node(face, u + side, v, &first), &node(face, u, v + side, &first),
-                                             &node(face, u + side, v + side, &first)};
+    const Node& second = node(face, u + side, v, first, first);
+    const Node& third = node(face, u, v + side, first, first);
+    const Node& fourth = node(face, u + side, v + side, second, third);
     const int steps = Map::kRootsPerSide[static_cast<std::size_t>(face)] << (Map::kMaximumDepth + 1);
-    const Patch patch = hermitePatch(corners, 2.0 * side / steps);
+    const Patch patch = hermitePatch({&first, &second, &third, &fourth}, 2.0 * side / steps);
     const int half = side / 2;
     // The middle first: most patches that fail, fail there.
-    double worst = excess(patch, node(face, u + half, v + half, &first), 0.5, 0.5);
-    if (worst <= 1.0 && level < kEdgeCheckLevels) {
-      worst = std::max({worst, excess(patch, node(face, u + half, v, &first), 0.5, 0.0),
-                        excess(patch, node(face, u, v + half, &first), 0.0, 0.5),
-                        excess(patch, node(face, u + side, v + half, &first), 1.0, 0.5),
-                        excess(patch, node(face, u + half, v + side, &first), 0.5, 1.0)});
+    double worst = excess(patch, node(face, u + half, v + half, first, fourth), 0.5, 0.5);
+    const bool deepest = level == Map::kDepthLimit[static_cast<std::size_t>(face)];
+    if ((worst <= 1.0 && level < kEdgeCheckLevels) || (worst > 1.0 && !deepest)) {
+      // Also the corners of the four parts, should there be any.
+      worst = std::max({worst, excess(patch, node(face, u + half, v, first, second), 0.5, 0.0),
+                        excess(patch, node(face, u, v + half, first, third), 0.0, 0.5),
+                        excess(patch, node(face, u + side, v + half, second, fourth), 1.0, 0.5),
+                        excess(patch, node(face, u + half, v + side, third, fourth), 0.5, 1.0)});
     }
-    if (worst <= 1.0 || level == Map::kDepthLimit[static_cast<std::size_t>(face)]) {
+    if (worst <= 1.0 || deepest) {
       m_map.statistics.largestError = std::max(m_map.statistics.largestError, worst * m_tolerance);
       placed.push_back({level, i, j, store(patch)});
       return;
@@ -268,7 +272,8 @@ class Builder {
   PerceptualMetric m_metric;
   Map m_map;
   std::unordered_map<std::uint64_t, Node> m_nodes;
-  const Node* m_latest = nullptr;
+  Node m_none;  // guesses nothing
+  const Node* m_latest = &m_none;
 };
 
 }  // namespace

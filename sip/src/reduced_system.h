@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <vector>
 
+#include "band_table.h"
 #include "metamer/sip/smoothest_spectrum.h"
 
 namespace metamer::sip {
@@ -14,38 +14,44 @@ namespace metamer::sip {
 enum class BandState : std::int8_t { Free, AtZero, AtOne };
 using BandStates = std::array<BandState, kConvergedBandCount>;
 
+/// A curve F that the spectrum follows where nothing pulls it: the prior itself, or the answer to a push at one band.
+/// The ends are natural: F[-1] = F[0] and F[B] = F[B-1] + endSlope.
+struct Guide {
+  Eigen::VectorXd values;
+  double endSlope = 0.0;
+};
+
 /// The Karush-Kuhn-Tucker system of the smoothest spectrum for one choice of held bands.
 ///
-/// With H the tridiagonal matrix of the roughness (diagonal 1, 2, ..., 2, 1, off-diagonal -1), F the free bands and
-/// A the weights:  H_FF R_F - A_F^T multipliers = force_F - H_FW R_W,  A_F R_F = target - A_W R_W.
-/// Each run of free bands between held ones is a Toeplitz tridiagonal system whose pivots are known in closed form,
-/// so elimination needs no division. Where no band is held H is singular along the constant: one band, the pin, then
-/// becomes a fourth unknown.
+/// Stationarity says that the second difference of R - F is -A^T multipliers on free bands. So on a run of free bands
+/// R = F - multipliers . Q + a straight line, Q the run's twice-summed weights (RunSums), and the line is fixed by what
+/// the run's held neighbours hold, or by a natural end. (Over all bands: R is the least concave curve above
+/// multipliers . Q - F, less that curve.) What remains are three equations for the multipliers, from sums over runs:
+/// no elimination, no loss of digits. With nothing held at all the line's height is a fourth unknown.
 class ReducedSystem {
  public:
   /// What held bands hold: their bounds, or zero (for a direction of change).
   enum class Held { AtBounds, AtZero };
 
-  /// @param weights  a row a band: three channels, then zero
-  /// @param force    right side per band, or null for zero (the roughness' own force for a prior P is H P)
-  /// @param pin      the band to carry the constant where nothing is held
-  /// All three outlive the system.
-  ReducedSystem(const std::vector<Eigen::Array4d>& weights, const BandStates& states, const Eigen::VectorXd* force,
-                Held held, int pin);
+  /// @param guide  F, or null for zero. All arguments outlive the system.
+  ReducedSystem(const BandTable& table, const BandStates& states, const Guide* guide, Held held);
 
   /// Spectrum whose weights sum to `target`, and the three multipliers. One step of iterative refinement where
   /// `refine`: near the spectral locus the free bands' weights are almost collinear and half the digits are lost.
   void solve(const Eigen::Vector3d& target, bool refine, Eigen::VectorXd& spectrum, Eigen::Vector3d& multipliers) const;
 
-  /// (H R - A^T multipliers - force) at a band: how the bound of a held band pushes.
+  /// How the bound of a held band pushes: minus the second difference of R, less the pull there.
   double pushAt(int band, const Eigen::VectorXd& spectrum, const Eigen::Vector3d& multipliers) const {
     const double* r = spectrum.data() + band;
-    const Eigen::Array4d& weight = m_weights[band];
     const double left = band > 0 ? r[0] - r[-1] : 0.0;
-    const double right = band + 1 < m_bandCount ? r[0] - r[1] : 0.0;
-    const double force = m_force != nullptr ? (*m_force)[band] : 0.0;
-    return left + right - force -
-           (weight[0] * multipliers[0] + weight[1] * multipliers[1] + weight[2] * multipliers[2]);
+    const double right = band + 1 < m_table.bandCount() ? r[0] - r[1] : 0.0;
+    return left + right - pullAt(band, multipliers);
+  }
+  /// A^T multipliers at a band, and minus the second difference of the guide.
+  double pullAt(int band, const Eigen::Vector3d& multipliers) const {
+    const Eigen::Array4d& weight = m_table.weight(band);
+    const double pull = weight[0] * multipliers[0] + weight[1] * multipliers[1] + weight[2] * multipliers[2];
+    return m_guide != nullptr ? pull + guideForce(band) : pull;
   }
 
   /// B x 3: the free bands' response to the target (zero on held bands).
@@ -55,39 +61,34 @@ class ReducedSystem {
   bool fullRank() const { return m_fullRank; }
 
  private:
-  using Columns = std::array<Eigen::Array4d, kConvergedBandCount>;
-  /// Adjacent free bands, first ... end - 1.
+  /// Adjacent free bands, first ... end - 1. R = fixed + multipliers . (base + slope (b - first + 1) - Q).
   struct Run {
     int first;
     int end;
+    Eigen::Array4d base;
+    Eigen::Array4d slope;
   };
 
-  bool isFree(int band) const { return m_states[band] == BandState::Free && band != m_pin; }
   double heldValue(int band) const {
-    return m_held == Held::AtBounds && band >= 0 && band < m_bandCount && m_states[band] == BandState::AtOne ? 1.0
-                                                                                                             : 0.0;
+    return m_held == Held::AtBounds && m_states[static_cast<std::size_t>(band)] == BandState::AtOne ? 1.0 : 0.0;
   }
-  void findRuns();
-  void eliminate(Columns& columns) const;
-  void formSchur();
+  double guideForce(int band) const;
+  void addRun(int first, int end, Eigen::Matrix3d& schur);
+  void fix(const Run& run);
+  void invert(const Eigen::Matrix3d& schur);
+  void evaluate(const Eigen::Vector4d& unknowns, Eigen::VectorXd& spectrum) const;
 
-  const std::vector<Eigen::Array4d>& m_weights;
+  const BandTable& m_table;
   const BandStates& m_states;
-  const Eigen::VectorXd* m_force;
+  const Guide* m_guide;
   Held m_held;
-  int m_bandCount;
-  int m_pin;  // -1 where some band is held
+  bool m_nothingHeld = false;
   std::array<Run, kConvergedBandCount / 2 + 1> m_runs;
   int m_runCount = 0;
-  /// Of free bands: H_FF^-1 applied to the three weights and, last, to the pin's coupling; without a pin, to the force.
-  Columns m_columns;
-  std::vector<double> m_pinnedForce;  // H_FF^-1 force where both are there
-  Eigen::Matrix4d m_inverse;          // of the Schur complement over multipliers and pin
-  Eigen::Vector4d m_offset;           // what force and held bands already give, to be taken off the target
+  Eigen::VectorXd m_fixed;                // the part of R that does not depend on the multipliers; empty where zero
+  Eigen::Matrix<double, 4, 3> m_inverse;  // multipliers, and the line's height, from the target
+  Eigen::Vector4d m_start;                // the same for target zero
   bool m_fullRank = true;
 };
-
-/// H x, the gradient of the roughness (half of it).
-Eigen::VectorXd roughnessGradient(const Eigen::VectorXd& spectrum);
 
 }  // namespace metamer::sip

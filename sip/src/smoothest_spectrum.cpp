@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <vector>
 
+#include "band_table.h"
 #include "reduced_system.h"
 
 namespace metamer::sip {
@@ -22,26 +22,33 @@ constexpr double kResidualTolerance = 1e-9;
 /// A unit push that moves its own band by less than this does not move it at all: the free bands are all spoken for.
 constexpr double kNoSlope = 1e-11;
 
-BandStates statesOf(const ActiveSet& active, int bandCount) {
+BandStates statesOf(const ActiveSet& active) {
   BandStates states;
   states.fill(BandState::Free);
-  for (int b = 0; b < bandCount; ++b) {
-    if (active.atZero[b]) {
-      states[b] = BandState::AtZero;
-    } else if (active.atOne[b]) {
-      states[b] = BandState::AtOne;
-    }
+  for (const HeldStretch& stretch : active.stretches) {
+    std::fill(states.begin() + stretch.first, states.begin() + stretch.end,
+              stretch.atOne ? BandState::AtOne : BandState::AtZero);
   }
   return states;
 }
 
+/// Behind the bands from `first` on that share its state.
+int endOfStretch(const BandStates& states, int first, int bandCount) {
+  int end = first + 1;
+  while (end < bandCount && states[static_cast<std::size_t>(end)] == states[static_cast<std::size_t>(first)]) {
+    ++end;
+  }
+  return end;
+}
+
 ActiveSet activeSetOf(const BandStates& states, int bandCount) {
   ActiveSet active;
-  for (int b = 0; b < bandCount; ++b) {
-    if (states[b] == BandState::AtZero) {
-      active.atZero.set(static_cast<std::size_t>(b));
-    } else if (states[b] == BandState::AtOne) {
-      active.atOne.set(static_cast<std::size_t>(b));
+  for (int first = 0, end = 0; first < bandCount; first = end) {
+    end = endOfStretch(states, first, bandCount);
+    const BandState state = states[static_cast<std::size_t>(first)];
+    if (state != BandState::Free) {
+      active.stretches.push_back(
+          {static_cast<std::int16_t>(first), static_cast<std::int16_t>(end), state == BandState::AtOne});
     }
   }
   return active;
@@ -49,11 +56,11 @@ ActiveSet activeSetOf(const BandStates& states, int bandCount) {
 
 /// One problem: the data that every step of a solve shares.
 struct Problem {
-  const std::vector<Eigen::Array4d>& weights;
+  const BandTable& table;
   bool bounded;
   const Eigen::Vector3d& target;
-  const Eigen::VectorXd* force;  ///< H P of the prior, or null
-  int bandCount;
+  const Guide* prior;  ///< or null
+  int bandCount = table.bandCount();
 
   /// Distance by which band b breaks a bound (positive), with the bound.
   double violation(const Eigen::VectorXd& spectrum, int b, BandState& bound) const {
@@ -67,17 +74,70 @@ struct Problem {
   bool meets(const Eigen::VectorXd& spectrum) const {
     Eigen::Array4d sum = Eigen::Array4d::Zero();
     for (int b = 0; b < bandCount; ++b) {
-      sum += weights[b] * spectrum[b];
+      sum += table.weight(b) * spectrum[b];
     }
     return (sum.matrix().head<3>() - target).norm() <= kResidualTolerance * target.norm();
   }
-  ReducedSystem system(const BandStates& states) const {
-    return {weights, states, force, ReducedSystem::Held::AtBounds, 0};
-  }
+  ReducedSystem system(const BandStates& states) const { return {table, states, prior, ReducedSystem::Held::AtBounds}; }
 };
 
 double signOf(BandState bound) {
   return bound == BandState::AtOne ? -1.0 : 1.0;
+}
+
+/// Distance that counts as nothing.
+double toleranceOf(const Eigen::VectorXd& spectrum) {
+  return kBoundTolerance * spectrum.cwiseAbs().maxCoeff();
+}
+
+/// Forces the free bands of a stretch that break a bound. Returns whether none did.
+bool force(const Problem& problem, const Eigen::VectorXd& spectrum, int first, int end, double tolerance,
+           BandStates& states) {
+  const double highest = problem.bounded ? 1.0 + tolerance : std::numeric_limits<double>::infinity();
+  const auto stretch = spectrum.segment(first, end - first);
+  if (stretch.minCoeff() >= -tolerance && stretch.maxCoeff() <= highest) {
+    return true;
+  }
+  for (int b = first; b < end; ++b) {
+    if (spectrum[b] < -tolerance) {
+      states[static_cast<std::size_t>(b)] = BandState::AtZero;
+    } else if (spectrum[b] > highest) {
+      states[static_cast<std::size_t>(b)] = BandState::AtOne;
+    }
+  }
+  return false;
+}
+
+/// The same for all bands, where none is held.
+bool force(const Problem& problem, const Eigen::VectorXd& spectrum, BandStates& states) {
+  return force(problem, spectrum, 0, problem.bandCount, toleranceOf(spectrum), states);
+}
+
+/// Forces free bands that break a bound and releases held ones whose bound pulls them. Returns whether none did.
+bool revise(const Problem& problem, const ReducedSystem& system, const Eigen::VectorXd& spectrum,
+            const Eigen::Vector3d& multipliers, BandStates& states) {
+  const double tolerance = toleranceOf(spectrum);
+  const BandStates former = states;
+  bool settled = true;
+  for (int first = 0, end = 0; first < problem.bandCount; first = end) {
+    end = endOfStretch(former, first, problem.bandCount);
+    const BandState state = former[static_cast<std::size_t>(first)];
+    if (state == BandState::Free) {
+      settled = force(problem, spectrum, first, end, tolerance, states) && settled;
+      continue;
+    }
+    const double sign = signOf(state);
+    for (int b = first; b < end; ++b) {
+      // Inside a stretch the spectrum is level, and only the weights and the guide push.
+      const bool inside = b > first && b + 1 < end;
+      const double push = inside ? -system.pullAt(b, multipliers) : system.pushAt(b, spectrum, multipliers);
+      if (sign * push < -tolerance) {
+        states[static_cast<std::size_t>(b)] = BandState::Free;
+        settled = false;
+      }
+    }
+  }
+  return settled;
 }
 
 /// Force and release. Returns whether it settled; `states` then holds the active set, `spectrum` the answer and
@@ -92,22 +152,8 @@ bool forceAndRelease(const Problem& problem, BandStates& states, Eigen::VectorXd
       return false;
     }
     system.solve(problem.target, false, spectrum, multipliers);
-    const double tolerance = kBoundTolerance * spectrum.cwiseAbs().maxCoeff();
     BandStates next = states;
-    bool settled = true;
-    for (int b = 0; b < problem.bandCount; ++b) {
-      if (states[b] == BandState::Free) {
-        BandState bound;
-        if (problem.violation(spectrum, b, bound) > tolerance) {
-          next[b] = bound;
-          settled = false;
-        }
-      } else if (signOf(states[b]) * system.pushAt(b, spectrum, multipliers) < -tolerance) {
-        next[b] = BandState::Free;
-        settled = false;
-      }
-    }
-    if (settled) {
+    if (revise(problem, system, spectrum, multipliers, next)) {
       system.solve(problem.target, true, spectrum, multipliers);
       if (response != nullptr) {
         *response = system.response();
@@ -125,14 +171,14 @@ bool dualActiveSet(const Problem& problem, Eigen::VectorXd& spectrum, BandStates
                    Eigen::MatrixX3d* response) {
   states.fill(BandState::Free);
   Eigen::VectorXd held = Eigen::VectorXd::Zero(problem.bandCount);  // multipliers of the held bands
-  Eigen::VectorXd push(problem.bandCount);
+  Guide push{Eigen::VectorXd::Zero(problem.bandCount)};
   Eigen::VectorXd direction;
   Eigen::VectorXd change(problem.bandCount);
   Eigen::Vector3d multipliers;
   const int mostSteps = 40 * problem.bandCount;
   for (int step = 0; step < mostSteps;) {
     int entering = -1;
-    double worst = kBoundTolerance * spectrum.cwiseAbs().maxCoeff();
+    double worst = toleranceOf(spectrum);
     BandState enteringBound = BandState::AtZero;
     for (int b = 0; b < problem.bandCount; ++b) {
       BandState bound;
@@ -152,11 +198,14 @@ bool dualActiveSet(const Problem& problem, Eigen::VectorXd& spectrum, BandStates
       return problem.meets(spectrum);
     }
     const double sign = signOf(enteringBound);
-    push.setZero();
-    push[entering] = sign;
+    // What a push at one band alone makes: level up to there, then straight.
+    for (int b = 0; b < problem.bandCount; ++b) {
+      push.values[b] = -sign * std::max(0, b - entering);
+    }
+    push.endSlope = -sign;
     double enteringMultiplier = 0.0;
     for (; step < mostSteps; ++step) {
-      const ReducedSystem system(problem.weights, states, &push, ReducedSystem::Held::AtZero, entering);
+      const ReducedSystem system(problem.table, states, &push, ReducedSystem::Held::AtZero);
       ++rounds;
       system.solve(Eigen::Vector3d::Zero(), true, direction, multipliers);
       double releaseStep = std::numeric_limits<double>::infinity();
@@ -203,6 +252,29 @@ bool dualActiveSet(const Problem& problem, Eigen::VectorXd& spectrum, BandStates
 
 }  // namespace
 
+bool ActiveSet::holds(int band) const {
+  return std::any_of(stretches.begin(), stretches.end(),
+                     [band](const HeldStretch& stretch) { return stretch.first <= band && band < stretch.end; });
+}
+
+ActiveSet between(const ActiveSet& a, const ActiveSet& b) {
+  ActiveSet middle = a;
+  if (a.stretches.size() != b.stretches.size()) {
+    return middle;
+  }
+  for (std::size_t i = 0; i < a.stretches.size(); ++i) {
+    HeldStretch& stretch = middle.stretches[i];
+    const HeldStretch& other = b.stretches[i];
+    stretch.first = static_cast<std::int16_t>((stretch.first + other.first) / 2);
+    stretch.end = static_cast<std::int16_t>((stretch.end + other.end + 1) / 2);
+    const bool overlaps = i > 0 && stretch.first <= middle.stretches[i - 1].end;
+    if (stretch.atOne != other.atOne || overlaps) {
+      return a;
+    }
+  }
+  return middle;
+}
+
 double roughness(const Eigen::VectorXd& spectrum) {
   return (spectrum.tail(spectrum.size() - 1) - spectrum.head(spectrum.size() - 1)).squaredNorm();
 }
@@ -210,13 +282,12 @@ double roughness(const Eigen::VectorXd& spectrum) {
 SmoothestSpectrumSolver::SmoothestSpectrumSolver(Eigen::Matrix3Xd weights, UpperBound upperBound)
     : m_weights(std::move(weights)), m_upperBound(upperBound) {
   assert(bandCount() >= kMinimumBandCount && bandCount() <= kConvergedBandCount);
-  m_lanes.resize(static_cast<std::size_t>(bandCount()));
-  for (int b = 0; b < bandCount(); ++b) {
-    m_lanes[b] << m_weights.col(b).array(), 0.0;
-  }
+  m_table = std::make_shared<const BandTable>(m_weights);
   BandStates free;
   free.fill(BandState::Free);
-  m_unconstrained = ReducedSystem(m_lanes, free, nullptr, ReducedSystem::Held::AtBounds, bandCount() / 2).response();
+  m_unconstrained = ReducedSystem(*m_table, free, nullptr, ReducedSystem::Held::AtBounds).response();
+  // One step of refinement: what the constraints miss changes the roughness to first order, all else to second.
+  m_unconstrained += (m_unconstrained * (Eigen::Matrix3d::Identity() - m_weights * m_unconstrained)).eval();
 }
 
 std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solve(const Eigen::Vector3d& tristimulus,
@@ -225,48 +296,40 @@ std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solve(
                                                                                 Eigen::MatrixX3d* linearPiece) const {
   Solution solution;
   Eigen::VectorXd& spectrum = solution.reflectance;
-  Eigen::VectorXd force;
+  Guide guide;
   if (prior != nullptr) {
-    force = roughnessGradient(*prior);
-    spectrum = *prior + m_unconstrained * (tristimulus - m_weights * *prior);
-  } else {
-    spectrum = m_unconstrained * tristimulus;
+    guide.values = *prior;
   }
-  const Problem problem{m_lanes, m_upperBound == UpperBound::One, tristimulus, prior != nullptr ? &force : nullptr,
-                        bandCount()};
-  const double tolerance = kBoundTolerance * spectrum.cwiseAbs().maxCoeff();
+  const Problem problem{*m_table, m_upperBound == UpperBound::One, tristimulus, prior != nullptr ? &guide : nullptr};
   BandStates states;
-  states.fill(BandState::Free);
-  bool within = true;
-  for (int b = 0; b < bandCount(); ++b) {
-    BandState bound;
-    if (problem.violation(spectrum, b, bound) > tolerance) {
-      states[b] = bound;
-      within = false;
-    }
+  bool settled = false;
+  if (start != nullptr && !start->empty()) {
+    states = statesOf(*start);
+    settled = forceAndRelease(problem, states, spectrum, solution.rounds, linearPiece);
+    solution.active = activeSetOf(states, bandCount());
+    // With nothing held the answer is the one below, to the last bit.
+    settled = settled && !solution.active.empty();
   }
-  if (!within) {
-    const Eigen::VectorXd relaxed = spectrum;
-    const BandStates cold = states;
-    bool settled = false;
-    if (start != nullptr && !start->empty()) {
-      states = statesOf(*start, bandCount());
-      settled = forceAndRelease(problem, states, spectrum, solution.rounds, linearPiece);
+  if (!settled) {
+    spectrum = m_unconstrained * tristimulus;
+    if (prior != nullptr) {
+      spectrum += *prior - m_unconstrained * (m_weights * *prior);
     }
-    if (!settled) {
-      states = cold;
-      settled = forceAndRelease(problem, states, spectrum, solution.rounds, linearPiece);
+    if (linearPiece != nullptr) {
+      *linearPiece = m_unconstrained;
     }
-    if (!settled) {
-      solution.fellBack = true;
-      spectrum = relaxed;
-      if (!dualActiveSet(problem, spectrum, states, solution.rounds, linearPiece)) {
-        return std::nullopt;
+    states.fill(BandState::Free);
+    if (!force(problem, spectrum, states)) {
+      const Eigen::VectorXd relaxed = spectrum;
+      if (!forceAndRelease(problem, states, spectrum, solution.rounds, linearPiece)) {
+        solution.fellBack = true;
+        spectrum = relaxed;
+        if (!dualActiveSet(problem, spectrum, states, solution.rounds, linearPiece)) {
+          return std::nullopt;
+        }
       }
     }
     solution.active = activeSetOf(states, bandCount());
-  } else if (linearPiece != nullptr) {
-    *linearPiece = m_unconstrained;
   }
   // What lies beyond a bound by rounding alone is put on it.
   spectrum = spectrum.cwiseMax(0.0);
@@ -280,11 +343,11 @@ std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solveB
     const Eigen::Vector3d& tristimulus) const {
   Solution solution;
   solution.reflectance = m_unconstrained * tristimulus;
-  const Problem problem{m_lanes, false, tristimulus, nullptr, bandCount()};
+  const Problem problem{*m_table, false, tristimulus, nullptr};
   BandStates states;
   states.fill(BandState::Free);
   Eigen::Vector3d multipliers;
-  const double tolerance = kBoundTolerance * solution.reflectance.cwiseAbs().maxCoeff();
+  const double tolerance = toleranceOf(solution.reflectance);
   for (int held = 0; held < bandCount(); ++held) {
     Eigen::Index lowest = 0;
     if (solution.reflectance.minCoeff(&lowest) >= -tolerance) {

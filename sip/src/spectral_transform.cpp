@@ -76,6 +76,7 @@ struct SpectralTransform::State {
   bool identity = false;
   Eigen::Matrix3d responseFromRgb;   ///< white-normalised input response
   Eigen::Matrix3Xd rgbFromSpectrum;  ///< 3 x B: output RGB from reflectance
+  Eigen::MatrixX3d spectrumToRgb;    ///< its transpose: columns, for fast sums
   Eigen::Matrix3Xd basis;            ///< directions the input light tells apart
   Eigen::Matrix3d extension;         ///< output RGB from the response that lies outside the cone
   std::optional<SmoothestSpectrumSolver> solver;
@@ -160,6 +161,8 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   state->rgbFromSpectrum =
       rgbFromOutputXyz * output.xyzFromResponse * bandWeights(output.light, output.curves, bandCount);
 
+  state->spectrumToRgb = state->rgbFromSpectrum.transpose();
+
   const Eigen::Matrix3Xd weights =
       input.white.cwiseInverse().asDiagonal() * bandWeights(input.light, input.curves, bandCount);
   state->basis = signalBasis(weights, state->diagnostics.conditionNumber);
@@ -231,7 +234,7 @@ void SpectralTransform::apply(std::span<float> rgba) const {
 }
 
 SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vector3d& rgb,
-                                                              const Linearisation* neighbour) const {
+                                                              const ActiveSet* guess) const {
   Linearisation local;
   if (m_state->identity) {
     return {rgb, Eigen::Matrix3d::Identity(), {}};
@@ -255,11 +258,14 @@ SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vecto
     if (m_state->dataset) {
       spectrumFromTarget = m_state->dataset->locate(projection.point).spectrumFromResponse;
     } else {
-      const ActiveSet* start = neighbour != nullptr ? &neighbour->active : nullptr;
-      local.active = m_state->solve(projection.point, start, &spectrumFromTarget).active;
+      local.active = m_state->solve(projection.point, guess, &spectrumFromTarget).active;
       spectrumFromTarget = m_state->onResponse(spectrumFromTarget);
     }
-    inside.noalias() = m_state->rgbFromSpectrum.lazyProduct(spectrumFromTarget);
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) {
+        inside(row, column) = m_state->spectrumToRgb.col(row).dot(spectrumFromTarget.col(column));
+      }
+    }
   }
   local.matrix = (inside * projection.matrix + m_state->extension * (Eigen::Matrix3d::Identity() - projection.matrix)) *
                  m_state->responseFromRgb;

@@ -185,7 +185,7 @@ TEST(SpectralTransformTest, LinearisationIsTheDerivative) {
     const auto local = transform.linearise(colour);
     const double size = local.value.norm();
     value.add(local.value / size, transform.apply(colour) / size);
-    const auto again = transform.linearise(colour, &neighbour);
+    const auto again = transform.linearise(colour, &neighbour.active);
     EXPECT_EQ(again.value, local.value) << colour.transpose();
     EXPECT_EQ(again.active, local.active) << colour.transpose();
     neighbour = local;
@@ -402,7 +402,7 @@ TEST(SpectralTransformTest, PathsAcrossTheLocusAndThePurpleLineDoNotJump) {
       auto local = transform.linearise(colour);
       for (int i = 1; i <= kSteps; ++i) {
         const Vector3d next = colourAt(static_cast<double>(i) / kSteps);
-        const auto nextLocal = transform.linearise(next, &local);
+        const auto nextLocal = transform.linearise(next, &local.active);
         ASSERT_TRUE(nextLocal.value.allFinite());
         const double step = (next - colour).norm();
         const double jump = (nextLocal.value - local.value).norm();

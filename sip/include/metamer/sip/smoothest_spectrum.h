@@ -2,7 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <bitset>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -10,13 +11,28 @@
 
 namespace metamer::sip {
 
-/// Which bands a bound holds. With it given, the spectrum is linear in the tristimulus.
-struct ActiveSet {
-  std::bitset<kConvergedBandCount> atZero;
-  std::bitset<kConvergedBandCount> atOne;
-  bool operator==(const ActiveSet&) const = default;
-  bool empty() const { return atZero.none() && atOne.none(); }
+class BandTable;
+
+/// Adjacent bands, first ... end - 1, that one bound holds.
+struct HeldStretch {
+  std::int16_t first;
+  std::int16_t end;
+  bool atOne;  ///< held at 1; otherwise at 0
+  bool operator==(const HeldStretch&) const = default;
 };
+
+/// Which bands a bound holds: stretches in order of wavelength, as long as they go. With it given, the spectrum is
+/// linear in the tristimulus.
+struct ActiveSet {
+  std::vector<HeldStretch> stretches;
+  bool operator==(const ActiveSet&) const = default;
+  bool empty() const { return stretches.empty(); }
+  bool holds(int band) const;
+};
+
+/// A guess for a colour between two others: the stretches' ends half-way where both have the same stretches, else
+/// those of `a`.
+ActiveSet between(const ActiveSet& a, const ActiveSet& b);
 
 /// The smoothest spectrum that has a given tristimulus (course notes, section 5.5).
 ///
@@ -25,7 +41,8 @@ struct ActiveSet {
 /// so the answer is unique and continuous in c. Solved by its Karush-Kuhn-Tucker conditions: every band that is
 /// negative is forced to its bound and every forced band whose multiplier has the wrong sign is released, together,
 /// which settles in a few rounds; where it does not, a dual active-set method (Goldfarb and Idnani 1983), which cannot
-/// cycle, starts over. With the active set given, the system is tridiagonal plus three equations: O(B) a round.
+/// cycle, starts over. With the active set given, the spectrum is straight lines less the twice-summed weights, and
+/// three equations remain: O(B) a round.
 ///
 /// Immutable after construction, safe to share between threads. The answer does not depend on any earlier solve.
 class SmoothestSpectrumSolver {
@@ -63,7 +80,7 @@ class SmoothestSpectrumSolver {
 
  private:
   Eigen::Matrix3Xd m_weights;
-  std::vector<Eigen::Array4d> m_lanes;  // the weights a band a row, padded with zero: the reduced system's layout
+  std::shared_ptr<const BandTable> m_table;  // the weights again, laid out for sums over runs of bands
   UpperBound m_upperBound;
   Eigen::MatrixX3d m_unconstrained;
 };

@@ -66,8 +66,8 @@ class SpectralTransform {
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();  ///< derivative; value = matrix * rgb (homogeneity)
     ActiveSet active;                                  ///< bands held at zero
   };
-  /// @param neighbour  of a colour nearby, where known: saves time, does not change the answer
-  Linearisation linearise(const Eigen::Vector3d& rgb, const Linearisation* neighbour = nullptr) const;
+  /// @param guess  bands held for a colour nearby, where known: saves time, does not change the answer
+  Linearisation linearise(const Eigen::Vector3d& rgb, const ActiveSet* guess = nullptr) const;
 
   /// The reflectance given to a colour inside the feasible cone, at the band centres; nothing outside it.
   std::optional<Eigen::VectorXd> reflectance(const Eigen::Vector3d& rgb) const;
