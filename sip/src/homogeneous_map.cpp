@@ -60,7 +60,7 @@ std::vector<Eigen::Vector3d> inscribedPolygon(std::vector<Eigen::Vector3d> corne
 }
 
 /// Bicubic coefficients [power of v][power of u], each an RGB.
-using Patch = std::array<std::array<Eigen::Vector3d, 4>, 4>;
+using Bicubic = std::array<std::array<Eigen::Vector3d, 4>, 4>;
 
 /// Power coefficients of the cubic with values a, b and derivatives da, db at 0 and 1.
 std::array<Eigen::Vector3d, 4> hermite(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& da,
@@ -68,7 +68,7 @@ std::array<Eigen::Vector3d, 4> hermite(const Eigen::Vector3d& a, const Eigen::Ve
   return {a, da, 3.0 * (b - a) - 2.0 * da - db, 2.0 * (a - b) + da + db};
 }
 
-Eigen::Vector3d evaluate(const Patch& patch, double u, double v) {
+Eigen::Vector3d evaluate(const Bicubic& patch, double u, double v) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (std::size_t j = 4; j-- > 0;) {
     const auto& row = patch[j];
@@ -166,7 +166,7 @@ class Builder {
 
   /// Bicubic Hermite patch over the corners (low-low, high-low, low-high, high-high); the mixed derivatives, which the
   /// corners do not tell, are Adini's: exact for cubics. Neighbours of one size share their edge exactly.
-  static Patch hermitePatch(const std::array<const Node*, 4>& corner, double side) {
+  static Bicubic hermitePatch(const std::array<const Node*, 4>& corner, double side) {
     const auto value = [&](std::size_t k) -> const Eigen::Vector3d& { return corner[k]->exact.value; };
     const auto du = [&](std::size_t k) -> Eigen::Vector3d { return side * corner[k]->alongU; };
     const auto dv = [&](std::size_t k) -> Eigen::Vector3d { return side * corner[k]->alongV; };
@@ -181,7 +181,7 @@ class Builder {
     const auto high = hermite(value(2), value(3), du(2), du(3));
     const auto lowSlope = hermite(dv(0), dv(1), mixed(0), mixed(1));
     const auto highSlope = hermite(dv(2), dv(3), mixed(2), mixed(3));
-    Patch patch;
+    Bicubic patch;
     for (std::size_t i = 0; i < 4; ++i) {
       const auto powers = hermite(low[i], high[i], lowSlope[i], highSlope[i]);
       for (std::size_t j = 0; j < 4; ++j) {
@@ -192,18 +192,17 @@ class Builder {
   }
 
   /// Error of a patch at a checked point over the tolerance there.
-  static double excess(const Patch& patch, const Node& at, double u, double v) {
+  static double excess(const Bicubic& patch, const Node& at, double u, double v) {
     return (at.metric * (evaluate(patch, u, v) - at.exact.value)).norm() / at.tolerance;
   }
 
-  std::uint32_t store(const Patch& patch) {
-    const auto index = static_cast<std::uint32_t>(m_map.patches.size() / Map::kPatchFloats);
+  std::uint32_t store(const Bicubic& patch) {
+    const auto index = static_cast<std::uint32_t>(m_map.patches.size());
+    float* next = m_map.patches.emplace_back().coefficients.data();
     for (const auto& row : patch) {
       for (const auto& coefficient : row) {
-        for (int k = 0; k < 3; ++k) {
-          m_map.patches.push_back(static_cast<float>(coefficient[k]));
-        }
-        m_map.patches.push_back(0.0F);
+        Eigen::Map<Eigen::Vector4f>(next) << coefficient.cast<float>(), 0.0F;
+        next += 4;
       }
     }
     ++m_map.statistics.patches;
@@ -218,7 +217,7 @@ class Builder {
     const Node& third = node(face, u, v + side, first, first);
     const Node& fourth = node(face, u + side, v + side, second, third);
     const int steps = Map::kRootsPerSide[static_cast<std::size_t>(face)] << (Map::kMaximumDepth + 1);
-    const Patch patch = hermitePatch({&first, &second, &third, &fourth}, 2.0 * side / steps);
+    const Bicubic patch = hermitePatch({&first, &second, &third, &fourth}, 2.0 * side / steps);
     const int half = side / 2;
     // The middle first: most patches that fail, fail there.
     double worst = excess(patch, node(face, u + half, v + half, first, fourth), 0.5, 0.5);

@@ -15,6 +15,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 HWY_BEFORE_NAMESPACE();
 namespace metamer::sip {
@@ -32,6 +33,8 @@ using I = hn::VFromD<Int>;
 constexpr int kFrontRoots = Map::kRootsPerSide[Map::kFrontFace];
 constexpr int kFrontRootBits = std::countr_zero(static_cast<unsigned>(kFrontRoots));
 static_assert(1 << kFrontRootBits == kFrontRoots);
+/// Keeps the reciprocal of a denormal finite: such a pixel's place is off, by less than it is bright.
+constexpr float kLargest = std::numeric_limits<float>::max();
 constexpr int kFrontCells = kFrontRoots << Map::kMaximumDepth;
 
 HWY_INLINE V dot(V ax, V ay, V az, V x, V y, V z) {
@@ -61,12 +64,13 @@ inline Place locate(const Map& map, const float* rgb) {
   }
   const float length = std::abs(p[axis]);
   if (!(length > 0.0F)) {
-    return {map.patches.data(), 0.0F, 0.0F, 0.0F};
+    return {map.patches.front().coefficients.data(), 0.0F, 0.0F, 0.0F};
   }
   const std::size_t face = 2 * axis + (p[axis] > 0.0F ? 0 : 1);
   const int side = Map::kRootsPerSide[face];
   const int cells = side << Map::kMaximumDepth;
-  const auto scaled = [&](std::size_t k) { return (p[k % 3] / length * 0.5F + 0.5F) * static_cast<float>(cells); };
+  const float halfReciprocal = std::min(0.5F / length, kLargest);
+  const auto scaled = [&](std::size_t k) { return (p[k % 3] * halfReciprocal + 0.5F) * static_cast<float>(cells); };
   const float u = scaled(axis + 1);
   const float v = scaled(axis + 2);
   const int cellU = std::clamp(static_cast<int>(u), 0, cells - 1);
@@ -84,7 +88,7 @@ inline Place locate(const Map& map, const float* rgb) {
   // The patch spans 2^span finest cells and starts at a multiple of that.
   const int span = Map::kMaximumDepth - static_cast<int>(entry & kDepthMask);
   const float reciprocal = 1.0F / static_cast<float>(1 << span);
-  return {&map.patches[static_cast<std::size_t>(entry >> Map::kDepthBits) * Map::kPatchFloats], length,
+  return {map.patches[entry >> Map::kDepthBits].coefficients.data(), length,
           (u - static_cast<float>((cellU >> span) << span)) * reciprocal,
           (v - static_cast<float>((cellV >> span) << span)) * reciprocal};
 }
@@ -96,10 +100,10 @@ HWY_INLINE void applyPatch(const float* patch, float length, float u, float v, f
 #if HWY_TARGET <= HWY_AVX3 && HWY_TARGET != HWY_SCALAR
   const hn::FixedTag<float, 16> d;
   const auto vs = hn::Set(d, v);
-  auto powers = hn::LoadU(d, patch + 48);
-  powers = hn::Add(hn::Mul(powers, vs), hn::LoadU(d, patch + 32));
-  powers = hn::Add(hn::Mul(powers, vs), hn::LoadU(d, patch + 16));
-  powers = hn::Add(hn::Mul(powers, vs), hn::LoadU(d, patch));
+  auto powers = hn::Load(d, patch + 48);
+  powers = hn::Add(hn::Mul(powers, vs), hn::Load(d, patch + 32));
+  powers = hn::Add(hn::Mul(powers, vs), hn::Load(d, patch + 16));
+  powers = hn::Add(hn::Mul(powers, vs), hn::Load(d, patch));
   const hn::FixedTag<float, 8> d8;
   const auto pair = hn::Add(hn::LowerHalf(d8, powers), hn::Mul(hn::UpperHalf(d8, powers), hn::Set(d8, u2)));
   const hn::FixedTag<float, 4> d4;
@@ -110,10 +114,10 @@ HWY_INLINE void applyPatch(const float* patch, float length, float u, float v, f
   const auto vs = hn::Set(d, v);
   for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
     const auto power = [&](std::size_t i) {
-      auto value = hn::LoadU(d, patch + 48 + 4 * i + k);
-      value = hn::Add(hn::Mul(value, vs), hn::LoadU(d, patch + 32 + 4 * i + k));
-      value = hn::Add(hn::Mul(value, vs), hn::LoadU(d, patch + 16 + 4 * i + k));
-      return hn::Add(hn::Mul(value, vs), hn::LoadU(d, patch + 4 * i + k));
+      auto value = hn::Load(d, patch + 48 + 4 * i + k);
+      value = hn::Add(hn::Mul(value, vs), hn::Load(d, patch + 32 + 4 * i + k));
+      value = hn::Add(hn::Mul(value, vs), hn::Load(d, patch + 16 + 4 * i + k));
+      return hn::Add(hn::Mul(value, vs), hn::Load(d, patch + 4 * i + k));
     };
     const auto even = hn::Add(power(0), hn::Mul(power(2), hn::Set(d, u2)));
     const auto odd = hn::Add(power(1), hn::Mul(power(3), hn::Set(d, u2)));
@@ -146,9 +150,10 @@ HWY_INLINE hn::Mask<Float> locateOnFront(const Map& map, V r, V g, V b, Places& 
   const auto front = hn::And(hn::And(hn::Ge(pz, hn::Abs(px)), hn::Ge(pz, hn::Abs(py))), hn::Gt(pz, hn::Zero(d)));
   const V length = hn::IfThenElse(front, pz, hn::Set(d, 1.0F));
   const V half = hn::Set(d, 0.5F);
+  const V halfReciprocal = hn::Min(hn::Div(half, length), hn::Set(d, kLargest));
   const auto scaled = [&](V p) {
-    const V coordinate = hn::Div(hn::IfThenElseZero(front, p), length);
-    return hn::Mul(hn::Add(hn::Mul(coordinate, half), half), hn::Set(d, static_cast<float>(kFrontCells)));
+    const V coordinate = hn::Mul(hn::IfThenElseZero(front, p), halfReciprocal);
+    return hn::Mul(hn::Add(coordinate, half), hn::Set(d, static_cast<float>(kFrontCells)));
   };
   const auto cell = [&](V x) {
     return hn::Min(hn::Max(hn::ConvertTo(di, x), hn::Zero(di)), hn::Set(di, kFrontCells - 1));
@@ -226,8 +231,8 @@ HWY_INLINE void applyVector(const Map& map, const float* source, float* destinat
     const auto lane = static_cast<std::size_t>(std::countr_zero(todo));
     float* pixel = destination + 4 * lane;
     if ((far >> lane & 1U) == 0U) {
-      const float* patch = map.patches.data() + static_cast<std::size_t>(places.patch[lane]) * Map::kPatchFloats;
-      applyPatch(patch, places.length[lane], places.u[lane], places.v[lane], alphas[lane], pixel);
+      const auto patch = static_cast<std::size_t>(places.patch[lane]);
+      applyPatch(map.patches[patch].coefficients.data(), places.length[lane], places.u[lane], places.v[lane], alphas[lane], pixel);
     } else {
       const std::array<float, 3> rgb = {pixel[0], pixel[1], pixel[2]};  // still the source's
       const Place place = locate(map, rgb.data());

@@ -29,9 +29,11 @@ struct HomogeneousMap {
   static constexpr std::array<int, kFaceCount> kRootsPerSide = {8, 8, 8, 8, 32, 8};
   /// What lies beyond all lights is continuous and bounded there, and needs no more.
   static constexpr std::array<int, kFaceCount> kDepthLimit = {2, 2, 2, 2, kMaximumDepth, 2};
-  /// Per patch: for each power j of v (0 ... 3), for each power i of u (0 ... 3): red, green, blue, 0. In units of a
-  /// pixel whose largest |p| is 1; u, v run 0 ... 1 over the patch.
-  static constexpr std::size_t kPatchFloats = 64;
+  /// For each power j of v (0 ... 3), for each power i of u (0 ... 3): red, green, blue, 0. In units of a pixel whose
+  /// largest |p| is 1; u, v run 0 ... 1 over the patch. Aligned to lines of cache: a row of v's is one load.
+  struct alignas(64) Patch {
+    std::array<float, 64> coefficients;
+  };
   static constexpr int kMostLinearNormals = 8;
 
   std::array<float, 9> cubeFromRgb{};   ///< rows
@@ -43,7 +45,7 @@ struct HomogeneousMap {
   std::vector<std::uint32_t> roots;  ///< face by face, row by row: start in patchIndex << kDepthBits | depth
   std::array<std::uint32_t, kFaceCount> faceOffset{};  ///< of a face's first root
   std::vector<std::uint32_t> patchIndex;  ///< dense tables of the root cells: patch << kDepthBits | its level
-  std::vector<float> patches;             ///< kPatchFloats a patch
+  std::vector<Patch> patches;
 
   /// What the build did.
   struct Statistics {
