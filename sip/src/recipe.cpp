@@ -75,7 +75,7 @@ class Section {
   }
 
   std::string text(const YamlNode& node, const std::string& key) const {
-    if (node.kind != YamlNode::Kind::Scalar) {
+    if (node.kind == YamlNode::Kind::Sequence || node.kind == YamlNode::Kind::Map) {
       throw error(node, named(key), node.text, "must be a name, not a " + node.kindName());
     }
     if (node.text.empty()) {
@@ -234,20 +234,21 @@ std::string toYaml(const RecipePipeline& pipeline) {
 
 /// Runs a look-up and says in its error where in the recipe the name stands.
 template <typename Look>
-auto lookUp(const char* field, Look look) {
+auto lookUp(const Recipe& recipe, const char* field, Look look) {
   try {
     return look();
   } catch (const InputError& error) {
-    throw InputError(field, "", "", error.what());
+    throw InputError(recipe.where, field + std::string(": ") + error.what(), "", "");
   }
 }
 
-Pipeline resolvePipeline(const char* side, const RecipePipeline& recipe, const std::filesystem::path& folder,
+Pipeline resolvePipeline(const Recipe& recipe, const char* side, const RecipePipeline& named,
                          const spectral::DataLibrary& library) {
-  return lookUp(side, [&] {
-    Pipeline pipeline{library.illuminant(recipe.illuminant, folder), {}, library.observer(recipe.observer, folder)};
-    for (const auto& filter : recipe.filters) {
-      pipeline.filters.push_back({library.filter(filter.name, folder), filter.density});
+  return lookUp(recipe, side, [&] {
+    Pipeline pipeline{
+        library.illuminant(named.illuminant, recipe.folder), {}, library.observer(named.observer, recipe.folder)};
+    for (const auto& filter : named.filters) {
+      pipeline.filters.push_back({library.filter(filter.name, recipe.folder), filter.density});
     }
     return pipeline;
   });
@@ -280,13 +281,15 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
     throw InputError(where, "size", std::to_string(text.size()),
                      "is more than a recipe may have (" + std::to_string(kLargestRecipeBytes) + " bytes)");
   }
-  const YamlNode root = parseYaml(text, where);
+  const YamlNode root = parseYaml(std::string(spectral::checkedUtf8(text, where)), where);
   const Section top(root, where, "", {"metamer", "name", "space", "input", "output", "scene", "cat", "keep_exposure"});
   const YamlNode& version = top.require("metamer", "is missing; a recipe starts with 'metamer: 1'");
-  if (version.kind != YamlNode::Kind::Scalar || version.text != "1") {
-    throw top.error(version, "metamer", version.text, "is a version this release does not read; it reads 1");
+  if (version.kind != YamlNode::Kind::Scalar || version.quoted || version.text != "1") {
+    throw top.error(version, "metamer", version.text,
+                    "is a version this release does not read; it reads 1, a number without quotes");
   }
   Recipe recipe;
+  recipe.where = where;
   top.read("name", recipe.name);
   top.read("space", recipe.space);
   top.read("keep_exposure", recipe.keepExposure);
@@ -334,13 +337,13 @@ std::string toYaml(const Recipe& recipe) {
 }
 
 TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library) {
-  return resolve(recipe, library, lookUp("recipe", [&] { return library.colourSpace(recipe.space).linear; }));
+  return resolve(recipe, library, lookUp(recipe, "space", [&] { return library.colourSpace(recipe.space).linear; }));
 }
 
 TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library, const spectral::RgbSpace& space) {
   TransformSpec spec{.space = space,
-                     .input = resolvePipeline("input", recipe.input, recipe.folder, library),
-                     .output = resolvePipeline("output", recipe.output, recipe.folder, library),
+                     .input = resolvePipeline(recipe, "input", recipe.input, library),
+                     .output = resolvePipeline(recipe, "output", recipe.output, library),
                      .adaptation = recipe.adaptation,
                      .cat = recipe.cat,
                      .keepExposure = recipe.keepExposure,
@@ -352,7 +355,7 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
                      .standardObserver = library.observer(kStandardObserver)};
   if (recipe.scene.kind != ReferenceScene::Kind::Smooth) {
     spec.scene.samples =
-        lookUp("scene", [&] { return onDomain(library.reflectances(recipe.scene.set, recipe.folder)); });
+        lookUp(recipe, "scene", [&] { return onDomain(library.reflectances(recipe.scene.set, recipe.folder)); });
   }
   return spec;
 }

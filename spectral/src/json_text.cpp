@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_files.h"
 #include "text.h"
 
 namespace metamer::spectral {

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_files.h"
 
 namespace metamer::spectral {
 namespace {

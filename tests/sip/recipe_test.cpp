@@ -147,16 +147,26 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
       {"empty", "", "r.yaml: recipe: is empty; a recipe starts with 'metamer: 1'"},
       {"white space", "\n  \n", "r.yaml: recipe: is empty; a recipe starts with 'metamer: 1'"},
       {"comment", "# nothing\n", "r.yaml: recipe: is empty; a recipe starts with 'metamer: 1'"},
-      {"list at the top", "- metamer: 1\n", "r.yaml:1: recipe: must be a map of metamer, name, space, input, output, scene, cat, keep_exposure, such as 'metamer: 1'"},
-      {"text at the top", "metamer\n", "r.yaml:1: recipe 'metamer': must be a map of metamer, name, space, input, output, scene, cat, keep_exposure, such as 'metamer: 1'"},
+      {"list at the top", "- metamer: 1\n",
+       "r.yaml:1: recipe: must be a map of metamer, name, space, input, output, scene, cat, keep_exposure, such as "
+       "'metamer: 1'"},
+      {"text at the top", "metamer\n",
+       "r.yaml:1: recipe 'metamer': must be a map of metamer, name, space, input, output, scene, cat, keep_exposure, "
+       "such as 'metamer: 1'"},
+      {"quoted version", "metamer: '1'\n",
+       "r.yaml:1: metamer '1': is a version this release does not read; it reads 1, a number without quotes"},
+      {"Latin-1", "metamer: 1\nname: caf\xE9\n",
+       "r.yaml: text encoding: byte 21 is not UTF-8 (Latin-1?); save the file as UTF-8"},
       {"no version", "input: {illuminant: D65}\n", "r.yaml:1: metamer: is missing; a recipe starts with 'metamer: 1'"},
       {"version 2", "metamer: 2\n", "r.yaml:1: metamer '2': is a version this release does not read; it reads 1"},
       {"version as a list", "metamer: [1]\n", "r.yaml:1: metamer: is a version this release does not read; it reads 1"},
-      {"unknown key", with("scean: {kind: smooth}\n"), "r.yaml:4: key 'scean': unknown; the keys here are metamer, name, space, input, output, scene, cat, keep_exposure"},
+      {"unknown key", with("scean: {kind: smooth}\n"),
+       "r.yaml:4: key 'scean': unknown; the keys here are metamer, name, space, input, output, scene, cat, "
+       "keep_exposure"},
       {"unknown key below", "metamer: 1\ninput: {illuminant: D65,\n  filter: []}\noutput: {illuminant: A}\n",
-       "r.yaml:3: key 'input.filter': unknown; did you mean 'filters'? the keys here are illuminant, filters, observer"},
-      {"repeated key", with("cat: cat16\nname: a\ncat: cat16\n"),
-       "r.yaml:6: key 'cat': is given twice; keep one"},
+       "r.yaml:3: key 'input.filter': unknown; did you mean 'filters'? the keys here are illuminant, filters, "
+       "observer"},
+      {"repeated key", with("cat: cat16\nname: a\ncat: cat16\n"), "r.yaml:6: key 'cat': is given twice; keep one"},
       {"repeated key below", "metamer: 1\ninput: {illuminant: D65, illuminant: A}\noutput: {illuminant: A}\n",
        "r.yaml:2: key 'input.illuminant': is given twice; keep one"},
       {"map as a key", "{metamer: 1}: 1\n", "r.yaml:1: key: a key must be a plain word"},
@@ -165,7 +175,7 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
       {"no illuminant", "metamer: 1\ninput: {illuminant: D65}\noutput: {filters: []}\n",
        "r.yaml:3: output.illuminant: is missing; name the light, such as 'illuminant: D65'"},
       {"illuminant of nothing", "metamer: 1\ninput: {illuminant: }\noutput: {illuminant: A}\n",
-       "r.yaml:2: input.illuminant: must be a name, not a nothing"},
+       "r.yaml:2: input.illuminant: is empty; give a name or leave the key out"},
       {"empty illuminant", "metamer: 1\ninput: {illuminant: ''}\noutput: {illuminant: A}\n",
        "r.yaml:2: input.illuminant: is empty; give a name or leave the key out"},
       {"list for text", with("name: [a]\n"), "r.yaml:4: name: must be a name, not a list"},
@@ -195,9 +205,9 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
        "r.yaml:5: output.filters[0].density '-0.5': " + density},
       {"list for a number", filtered("[{name: Lee 201, density: []}]"),
        "r.yaml:5: output.filters[0].density: must be a number from 0 to 100"},
-      {"filters as text", filtered("Lee 201"),
-       "r.yaml:5: output.filters 'Lee 201': must be a list, such as [gel.csv]"},
-      {"filter as a list", filtered("[[Lee 201]]"), "r.yaml:5: output.filters[0]: must be a map of name, file, density, such as 'metamer: 1'"},
+      {"filters as text", filtered("Lee 201"), "r.yaml:5: output.filters 'Lee 201': must be a list, such as [gel.csv]"},
+      {"filter as a list", filtered("[[Lee 201]]"),
+       "r.yaml:5: output.filters[0]: must be a map of name, file, density, such as 'metamer: 1'"},
       {"filter without a name", filtered("[{density: 1}]"),
        "r.yaml:5: output.filters[0]: must have either a name or a file"},
       {"filter with two names", filtered("[{name: Lee 201, file: a.csv}]"),
@@ -214,8 +224,7 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
        "r.yaml:4: scene.strength '2': must be a number from 0 to 1"},
       {"radius of zero", with("scene: {kind: prior, set: skin, radius: 0}\n"),
        "r.yaml:4: scene.radius '0': must be a number from 0.0001 to 1"},
-      {"unknown cat", with("cat: cat61\n"),
-       "r.yaml:4: cat 'cat61': must be vonkries, bradford, cat02 or cat16"},
+      {"unknown cat", with("cat: cat61\n"), "r.yaml:4: cat 'cat61': must be vonkries, bradford, cat02 or cat16"},
       {"anchor", "metamer: 1\ninput: &a {illuminant: D65}\noutput: {illuminant: A}\n",
        "r.yaml:2: anchor: anchors are not allowed in a recipe; write the value out"},
       {"alias", "metamer: 1\ninput: {illuminant: &a D65}\noutput: {illuminant: *a}\n",
@@ -230,13 +239,14 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
        "r.yaml: recipe: holds more than one document; keep one recipe a file"},
       {"tab indentation", "metamer: 1\ninput:\n\tilluminant: D65\n", "r.yaml:3: YAML: illegal map value"},
       {"open bracket", "metamer: 1\ninput: {illuminant: D65\n", "r.yaml:3: YAML: end of map flow not found"},
-      {"open quote", "metamer: 1\nname: \"a\n", "r.yaml:1: input: is missing; give the light, such as 'input: {illuminant: D65}'"},
-      {"UTF-16", std::string("\xFF\xFEm\0", 4),
-       "r.yaml:1: text: is not a text file (control characters)"},
+      {"open quote", "metamer: 1\nname: \"a\n",
+       "r.yaml:1: input: is missing; give the light, such as 'input: {illuminant: D65}'"},
+      {"UTF-16", std::string("\xFF\xFEm\0", 4), "r.yaml: text encoding 'UTF-16': save the file as UTF-8"},
       {"NUL", std::string("metamer: 1\n\0", 12),
-       "r.yaml:2: text: is not a text file (control characters)"},
+       "r.yaml: text encoding: byte 12 is NUL: UTF-16 or not text; save the file as UTF-8"},
       {"deep list", "metamer: 1\nname: " + repeated("[", 100'000), "r.yaml:2: key: a key must be a plain word"},
-      {"deep map", "metamer: 1\nname: " + repeated("{a: ", 100'000), "r.yaml:2: nested deeper than 16 levels; this is no recipe"},
+      {"deep map", "metamer: 1\nname: " + repeated("{a: ", 100'000),
+       "r.yaml:2: nested deeper than 16 levels; this is no recipe"},
       {"deep block list", repeated("- ", 100'000), "r.yaml:1: nested deeper than 16 levels; this is no recipe"},
       {"deep keys", repeated("? ", 100'000), "r.yaml:1: key: a key must be a plain word"},
       {"too large", with("#" + repeated("x", 2'000'000)),
@@ -321,7 +331,8 @@ TEST(RecipeTest, UnknownNamesListNearOnes) {
   const auto base = [] { return parse(kShortest); };
   Recipe recipe = base();
   recipe.output.illuminant = "HP11";
-  EXPECT_NE(error(recipe).find("output: illuminant 'HP11': unknown; near names: HP1;"), std::string::npos) << error(recipe);
+  EXPECT_NE(error(recipe).find("output: illuminant 'HP11': unknown; near names: HP1;"), std::string::npos)
+      << error(recipe);
   recipe = base();
   recipe.input.filters = {{"ISO Standard Lenz", 1.0}};
   EXPECT_NE(error(recipe).find("near names: ISO Standard Lens"), std::string::npos) << error(recipe);

@@ -50,6 +50,7 @@ struct Recipe {
   RecipeScene scene;
   spectral::ChromaticAdaptation cat = spectral::ChromaticAdaptation::VonKries;
   bool keepExposure = false;
+  std::string where;             ///< the recipe's file, for messages; empty where it has none
   std::filesystem::path folder;  ///< where relative files are looked for: the recipe file's own folder
 };
 
