@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// A C door to the engine at any number of bands and to its map at any tolerance, instruction set and precision.
+#include <hwy/highway.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <memory>
+
+#include "metamer/sip/homogeneous_map.h"
+#include "metamer/sip/recipe.h"
+#include "metamer/sip/spectral_transform.h"
+#include "metamer/spectral/data_library.h"
+#include "metamer/spectral/input_error.h"
+
+using namespace metamer;
+
+namespace {
+
+struct BuiltMap {
+  sip::HomogeneousMap map;
+  double buildSeconds = 0;
+};
+
+/// The map's tables evaluated pixel by pixel in another arithmetic: what float32 alone costs.
+template <typename T>
+std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
+  using Map = sip::HomogeneousMap;
+  const auto row = [rgb](const float* matrix) {
+    return T(matrix[0]) * T(rgb[0]) + T(matrix[1]) * T(rgb[1]) + T(matrix[2]) * T(rgb[2]);
+  };
+  bool linear = map.linearNormalCount > 0;
+  for (int i = 0; i < map.linearNormalCount; ++i) {
+    linear = linear && row(map.linearNormals.data() + 3 * i) >= T(0);
+  }
+  if (linear) {
+    return {row(map.linearMatrix.data()), row(map.linearMatrix.data() + 3), row(map.linearMatrix.data() + 6)};
+  }
+  std::array<T, 3> p{};
+  std::size_t axis = 2;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p[k] = row(map.cubeFromRgb.data() + 3 * k);
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    axis = std::abs(p[k]) > std::abs(p[axis]) ? k : axis;
+  }
+  const T length = std::abs(p[axis]);
+  if (!(length > T(0))) {
+    return {};
+  }
+  const std::size_t face = 2 * axis + (p[axis] > T(0) ? 0 : 1);
+  const int side = Map::kRootsPerSide[face];
+  const int cells = side << Map::kMaximumDepth;
+  const auto scaled = [&](std::size_t k) { return (p[k % 3] / length + T(1)) * T(cells) / T(2); };
+  const T u = scaled(axis + 1);
+  const T v = scaled(axis + 2);
+  const int cellU = std::clamp(static_cast<int>(u), 0, cells - 1);
+  const int cellV = std::clamp(static_cast<int>(v), 0, cells - 1);
+  constexpr int kMask = (1 << Map::kMaximumDepth) - 1;
+  constexpr std::uint32_t kDepthMask = (1U << Map::kDepthBits) - 1U;
+  const std::uint32_t root =
+      map.roots[map.faceOffset[face] +
+                static_cast<std::uint32_t>((cellV >> Map::kMaximumDepth) * side + (cellU >> Map::kMaximumDepth))];
+  const int depth = static_cast<int>(root & kDepthMask);
+  const int shift = Map::kMaximumDepth - depth;
+  const std::uint32_t entry =
+      map.patchIndex[(root >> Map::kDepthBits) +
+                     static_cast<std::uint32_t>((((cellV & kMask) >> shift) << depth) + ((cellU & kMask) >> shift))];
+  const int span = Map::kMaximumDepth - static_cast<int>(entry & kDepthMask);
+  const T localU = (u - T((cellU >> span) << span)) / T(1 << span);
+  const T localV = (v - T((cellV >> span) << span)) / T(1 << span);
+  const auto& patch = map.patches[entry >> Map::kDepthBits].coefficients;
+  std::array<T, 3> sum{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t j = 4; j-- > 0;) {
+      T along = 0;
+      for (std::size_t i = 4; i-- > 0;) {
+        along = along * localU + T(patch[16 * j + 4 * i + k]);
+      }
+      sum[k] = sum[k] * localV + along;
+    }
+    sum[k] *= length;
+  }
+  return sum;
+}
+
+}  // namespace
+
+/// The transform between two lights of data/ in ACEScg at `bands`; null where the engine refuses it. `set`: reflectances
+/// of a prior of that strength, or null for smooth.
+extern "C" void* metamerEngine(const char* input, const char* output, int bands, const char* set, double strength) {
+  try {
+    const auto library = spectral::DataLibrary::openDefault();
+    sip::Recipe recipe;
+    recipe.input.illuminant = input;
+    recipe.output.illuminant = output;
+    if (set != nullptr) {
+      recipe.scene = {.kind = sip::ReferenceScene::Kind::Prior, .set = set, .strength = strength};
+    }
+    return std::make_unique<sip::SpectralTransform>(sip::resolve(recipe, library), bands).release();
+  } catch (const spectral::InputError&) {
+    return nullptr;
+  }
+}
+
+extern "C" void metamerEngineClose(void* engine) {
+  delete static_cast<sip::SpectralTransform*>(engine);
+}
+
+/// Doubles in and out, three a colour. Returns the seconds it took.
+extern "C" double metamerEngineApply(void* engine, const double* rgb, double* result, std::size_t count) {
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < count; ++i) {
+    Eigen::Map<Eigen::Vector3d>(result + 3 * i) =
+        static_cast<sip::SpectralTransform*>(engine)->apply(Eigen::Map<const Eigen::Vector3d>(rgb + 3 * i));
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Condition number of the input weights, channels told apart, gain of the linear branch.
+extern "C" void metamerEngineDiagnostics(void* engine, double* three) {
+  const auto diagnostics = static_cast<sip::SpectralTransform*>(engine)->diagnostics();
+  three[0] = diagnostics.conditionNumber;
+  three[1] = diagnostics.rank;
+  three[2] = diagnostics.matrixGain;
+}
+
+/// Largest gain (singular value of the derivative) over colours, over that of the linear branch.
+extern "C" double metamerEngineLargestGain(void* engine, const double* rgb, std::size_t count) {
+  const auto* transform = static_cast<sip::SpectralTransform*>(engine);
+  double largest = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    largest =
+        std::max(largest, transform->linearise(Eigen::Map<const Eigen::Vector3d>(rgb + 3 * i)).matrix.operatorNorm());
+  }
+  return largest / transform->diagnostics().matrixGain;
+}
+
+extern "C" void* metamerBuildMap(void* engine, double tolerance) {
+  auto built = std::make_unique<BuiltMap>();
+  const auto start = std::chrono::steady_clock::now();
+  built->map = sip::buildHomogeneousMap(*static_cast<sip::SpectralTransform*>(engine), tolerance);
+  built->buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return built.release();
+}
+
+extern "C" void metamerMapClose(void* map) {
+  delete static_cast<BuiltMap*>(map);
+}
+
+/// Seconds of the build, patches, bytes of all tables.
+extern "C" void metamerMapSize(void* map, double* three) {
+  const auto& [built, seconds] = *static_cast<BuiltMap*>(map);
+  three[0] = seconds;
+  three[1] = static_cast<double>(built.patches.size());
+  three[2] = static_cast<double>(built.patches.size() * sizeof(built.patches[0]) +
+                                 (built.patchIndex.size() + built.roots.size()) * sizeof(std::uint32_t));
+}
+
+extern "C" void metamerMapApply(void* map, const float* source, float* destination, std::size_t pixels) {
+  static_cast<BuiltMap*>(map)->map.apply({source, 4 * pixels}, {destination, 4 * pixels});
+}
+
+/// The map in double (`precision` 64) or long double (80): three doubles a pixel.
+extern "C" void metamerMapEvaluate(void* map, int precision, const float* rgba, double* rgb, std::size_t pixels) {
+  const auto& tables = static_cast<BuiltMap*>(map)->map;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    if (precision == 64) {
+      const auto value = evaluate<double>(tables, rgba + 4 * i);
+      std::copy(value.begin(), value.end(), rgb + 3 * i);
+    } else {
+      const auto value = evaluate<long double>(tables, rgba + 4 * i);
+      std::transform(value.begin(), value.end(), rgb + 3 * i, [](long double x) { return static_cast<double>(x); });
+    }
+  }
+}
+
+/// Instruction sets that this machine and build have, as Highway's bits.
+extern "C" std::int64_t metamerTargets() {
+  return hwy::SupportedTargets();
+}
+extern "C" const char* metamerTargetName(std::int64_t target) {
+  return hwy::TargetName(target);
+}
+/// Runs the kernel on one of them alone from now on; 0: on the best again.
+extern "C" void metamerUseTarget(std::int64_t target) {
+  hwy::SetSupportedTargetsForTest(target);
+  hwy::GetChosenTarget().DeInit();
+}

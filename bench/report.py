@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From the figures in bench.json to tables and plots: out/bench.md, docs/accuracy.md, docs/performance.md.
+
+Everything written here comes from the JSON alone, so that pages and figures cannot drift apart.
+"""
+
+import argparse
+import importlib
+import json
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+# Section: title, page of docs/ it stands on.
+SECTIONS = {
+    "solver": ("One smoothest spectrum", "performance"),
+    "build": ("Building the homogeneous map", "performance"),
+    "kernel": ("The map's kernel beside OpenColorIO", "performance"),
+    "cube": ("Baking cubes", "performance"),
+    "transforms": ("Error against time, every representation", "accuracy"),
+    "bands": ("How many bands", "accuracy"),
+    "recovery": ("Other recoveries in the same pipeline", "accuracy"),
+    "stability": ("Numerical stability", "accuracy"),
+    "growth": ("How cost grows", "performance"),
+}
+PAGES = {
+    "accuracy": ("Accuracy", "What each representation costs and how wrong it is, by the [error protocol](error_protocol.md)."),
+    "performance": ("Performance", "Times beside the peers', measured in the same run on the same pixels. Ratios travel "
+                                   "between machines; seconds do not."),
+}
+
+
+def section_markdown(name, result, heading, pictures=None):
+    """Lines of one section. `pictures`: link prefix of plots, where they are to be shown."""
+    section = importlib.import_module(f"sections.{name}")
+    lines = ["", "#" * heading + " " + SECTIONS[name][0], ""]
+    lines += section.markdown(result["figures"])
+    if pictures is not None and hasattr(section, "plot"):
+        lines += ["", f"![{SECTIONS[name][0]}]({pictures}{name}.png)"]
+    return lines + ["", f"*{result['machine']}; OpenColorIO {result['ocio']}; script/bench --only {name}.*"]
+
+
+def write_plots(results, folder, prefix):
+    for name in results:
+        section = importlib.import_module(f"sections.{name}")
+        if hasattr(section, "plot"):
+            section.plot(results[name]["figures"], folder / f"{prefix}{name}.png")
+
+
+def ordered(results):
+    return {name: results[name] for name in SECTIONS if name in results}
+
+
+def write(results, folder):
+    """bench.md and its plots."""
+    results = ordered(results)
+    lines = ["# Speed against error"]
+    for name, result in results.items():
+        lines += section_markdown(name, result, 2, "bench_")
+    (folder / "bench.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_plots(results, folder, "bench_")
+
+
+def page(results, name):
+    """One page of docs/, as text."""
+    title, opening = PAGES[name]
+    lines = [f"# {title}", "", opening, "", "Written by bench/report.py from [bench.json](bench.json); "
+             "`script/bench` measures anew.", ]
+    for section, result in ordered(results).items():
+        if SECTIONS[section][1] == name:
+            lines += section_markdown(section, result, 2, "images/bench_")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Writes the pages of docs/ that show bench.json.")
+    parser.add_argument("json", type=Path)
+    parser.add_argument("docs", type=Path)
+    arguments = parser.parse_args()
+    results = ordered(json.loads(arguments.json.read_text(encoding="utf-8")))
+    for name in PAGES:
+        (arguments.docs / f"{name}.md").write_text(page(results, name), encoding="utf-8")
+    (arguments.docs / "images").mkdir(exist_ok=True)
+    write_plots(results, arguments.docs / "images", "bench_")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
