@@ -22,6 +22,7 @@ SECTIONS = {
     "bands": ("How many bands", "accuracy"),
     "recovery": ("Other recoveries in the same pipeline", "accuracy"),
     "stability": ("Numerical stability", "accuracy"),
+    "hard_cases": ("Hard cases", "accuracy"),
     "growth": ("How cost grows", "performance"),
 }
 PAGES = {

@@ -32,7 +32,7 @@ def picture_size(context, folder):
 
 
 def cube_size(context, folder):
-    calls = {size ** 3: lambda s=size: command(context.bin_folder / "lutgen", "bake", "--illuminant-out", "A", "--size", s,
+    calls = {size ** 3: lambda s=size: command(context.bin_folder / "lutgen", "bake", "--illuminant-in", "D65", "--illuminant-out", "A", "--size", s,
                                                "-o", folder / "grow.cube") for size in (17, 33, 49, 65, 97)}
     return interleaved_medians(calls, 3)
 
