@@ -34,7 +34,7 @@ struct HomogeneousMap {
   struct alignas(64) Patch {
     std::array<float, 64> coefficients;
   };
-  static constexpr int kMostLinearNormals = 8;
+  static constexpr std::size_t kMostLinearNormals = 8;
 
   std::array<float, 9> cubeFromRgb{};   ///< rows
   std::array<float, 9> linearMatrix{};  ///< rows; exact inside the linear cone
