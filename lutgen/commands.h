@@ -10,5 +10,6 @@ void addBake(CLI::App& application);
 void addApply(CLI::App& application);
 void addList(CLI::App& application);
 void addConfig(CLI::App& application);
+void addCompare(CLI::App& application);
 
 }  // namespace metamer::lutgen

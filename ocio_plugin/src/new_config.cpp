@@ -190,7 +190,10 @@ std::string newConfigText(const std::string& name, const std::string& descriptio
   addUtilitySpaces(config, library);
   addDisplays(config);
 
-  const std::array<std::array<const char*, 2>, 9> roles{{{"aces_interchange", "ACES2065-1"},
+  const std::array<std::array<const char*, 2>, 12> roles{{{"default", "ACES2065-1"},
+                                                         {"reference", "ACES2065-1"},
+                                                         {"rendering", "ACEScg"},
+                                                         {"aces_interchange", "ACES2065-1"},
                                                          {"cie_xyz_d65_interchange", kConnection},
                                                          {"scene_linear", "ACEScg"},
                                                          {"compositing_log", "ACEScct"},
@@ -206,6 +209,12 @@ std::string newConfigText(const std::string& name, const std::string& descriptio
   rules->setDefaultRuleColorSpace("ACES2065-1");
   config->setFileRules(rules);
   config->setInactiveColorSpaces(kConnection);
+  // Programs open with the first.
+  std::string views;
+  for (std::size_t k = 1; k < kViewTransforms.size(); ++k) {
+    views += std::string(kViewTransforms[k].name) + ", ";
+  }
+  config->setActiveViews((views + kUntoned + ", " + kRaw).c_str());
   config->validate();
   std::ostringstream text;
   config->serialize(text);
