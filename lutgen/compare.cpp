@@ -59,7 +59,8 @@ Kind kindOf(const std::string& name) {
   std::string known = OIIO::get_string_attribute("extension_list");
   std::replace_if(
       known.begin(), known.end(), [](char c) { return c == ':' || c == ';'; }, ',');
-  const bool isPicture = extension.size() > 1 && ("," + known + ",").find("," + extension.substr(1) + ",") != std::string::npos;
+  const bool isPicture =
+      extension.size() > 1 && ("," + known + ",").find("," + extension.substr(1) + ",") != std::string::npos;
   return isPicture ? Kind::Picture : Kind::File;
 }
 
@@ -110,8 +111,13 @@ class Comparer {
     const ocio::ComparedTransform a = transformOf(m_arguments.a, recipeA, recipeB);
     const ocio::ComparedTransform b = transformOf(m_arguments.b, recipeB, recipeA);
     m_space = a.spec ? a.space : b.spec ? b.space : a.kind != "look" ? a.space : b.space;
-    CompareReport report{a.kind, m_arguments.a, b.kind, m_arguments.b, m_space.name,
-                         ocio::compareTransforms(a, b, m_space, m_library), m_arguments.tolerance,
+    CompareReport report{a.kind,
+                         m_arguments.a,
+                         b.kind,
+                         m_arguments.b,
+                         m_space.name,
+                         ocio::compareTransforms(a, b, m_space, m_library),
+                         m_arguments.tolerance,
                          m_arguments.statistic};
     return report;
   }
@@ -143,17 +149,25 @@ class Comparer {
     const std::vector<float> pixelsA = linear(a, m_space);
     const std::vector<float> pixelsB = linear(b, spaceB);
     if (spaceB.name != m_space.name) {
-      throw InputError(m_arguments.b, "pixels", spaceB.name, "are not of the kind of " + m_arguments.a + ", " +
-                                                                 m_space.name + "; say what both are: --space");
+      throw InputError(
+          m_arguments.b, "pixels", spaceB.name,
+          "are not of the kind of " + m_arguments.a + ", " + m_space.name + "; say what both are: --space");
     }
     m_pictureWidth = a.width();
-    return {"picture", m_arguments.a, "picture", m_arguments.b, m_space.name,
-            sip::comparePixels(m_space, pixelsA, pixelsB), m_arguments.tolerance, m_arguments.statistic};
+    return {"picture",
+            m_arguments.a,
+            "picture",
+            m_arguments.b,
+            m_space.name,
+            sip::comparePixels(m_space, pixelsA, pixelsB),
+            m_arguments.tolerance,
+            m_arguments.statistic};
   }
 
   void plot(const CompareReport& report) const {
     HeatMapOptions options;
-    options.scale = report.tolerance ? 2.0 * *report.tolerance : std::min(report.comparison.max, 10.0);
+    options.scale =
+        report.tolerance ? 2.0 * *report.tolerance : std::min(report.comparison.max, 2.0 * report.comparison.p99);
     options.scale = std::max(options.scale, 0.01);
     options.pictureWidth = m_pictureWidth;
     options.title = "CIEDE2000, " + report.nameA + " against " + report.nameB;
@@ -212,8 +226,9 @@ void addCompare(CLI::App& application) {
   command->add_option("--json", arguments->json, "File for the figures as JSON");
   command->add_option("--junit", arguments->junit, "File for the verdict as JUnit XML");
   command->add_option("--plot", arguments->plot, "PNG of the differences over chromaticity and exposure");
-  command->add_option("--space", arguments->space,
-                      "What the pixels are, of pictures and of LUT files without a certificate; the recipe's or ACEScg");
+  command->add_option(
+      "--space", arguments->space,
+      "What the pixels are, of pictures and of LUT files without a certificate; the recipe's or ACEScg");
   command->add_option("--shaper", arguments->shaper,
                       "Log curve of LUT files without a certificate; ACEScct by default, none for .ctf and .clf");
   command->callback([arguments] { compare(*arguments); });

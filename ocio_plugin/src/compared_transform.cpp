@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -24,8 +25,17 @@ using PixelFunction = std::function<void(std::span<float> rgba)>;
 
 constexpr const char* kInterchangeRole = "aces_interchange";
 constexpr const char* kChart = "colorchecker";
-/// What log footage carries: a file of unknown making is judged on it.
+/// What log footage carries, short of the curve's last two stops: a file of unknown making is judged on it.
 constexpr int kSignalStops = 7;
+
+sip::ErrorProtocol::Options signalProbes(spectral::LogEncoding encoding) {
+  const double stops = std::log2(spectral::decode(encoding, 1.0) / 0.18);
+  sip::ErrorProtocol::Options probes;
+  probes.insideGamutOnly = true;
+  probes.lowestStop = -kSignalStops;
+  probes.highestStop = std::min(kSignalStops, static_cast<int>(std::floor(stops)) - 2);
+  return probes;
+}
 
 bool holdsSignal(const std::filesystem::path& file) {
   const std::string extension = lowerCase(file.extension().string());
@@ -113,13 +123,6 @@ ComparedTransform comparedFile(const std::filesystem::path& file, const LutPixel
   const PixelProcessor processor = PixelProcessor::fromFile(file);
   const auto certified = certifiedPixels(file);
   const bool isSignal = holdsSignal(file);
-  if (certified) {
-    result.probes = certified->probes;
-  } else if (isSignal) {
-    result.probes.insideGamutOnly = true;
-    result.probes.lowestStop = -kSignalStops;
-    result.probes.highestStop = kSignalStops;
-  }
   const WorkingSpace working = findWorkingSpace(certified ? certified->space : pixels.space, library, config);
   result.space = working.engine;
   std::vector<PixelFunction> steps;
@@ -129,6 +132,11 @@ ComparedTransform comparedFile(const std::filesystem::path& file, const LutPixel
   const std::string curve = certified ? certified->shaper : pixels.shaper;
   const bool hasShaper = !working.isLog && (isSignal || (!certified && !curve.empty()));
   const auto encoding = hasShaper && !curve.empty() ? shaperFromName(curve) : spectral::LogEncoding::AcesCct;
+  if (certified) {
+    result.probes = certified->probes;
+  } else if (hasShaper || isSignal) {
+    result.probes = signalProbes(working.encoding.value_or(encoding));
+  }
   if (hasShaper) {
     steps.push_back(throughOcio(shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD)));
   }
@@ -183,8 +191,8 @@ ComparedTransform onSpace(const ComparedTransform& transform, const spectral::Rg
   ComparedTransform result = transform;
   result.space = space;
   result.spec.reset();
-  result.apply = inTurn(
-      {throughOcio(matrixOperator(there)), transform.apply, throughOcio(matrixOperator(there.inverse()))});
+  result.apply =
+      inTurn({throughOcio(matrixOperator(there)), transform.apply, throughOcio(matrixOperator(there.inverse()))});
   return result;
 }
 

@@ -70,8 +70,9 @@ ConfigDocument openBaseConfig(const fs::path& base, const fs::path& result) {
   }
   const auto role = facts.roles.find(kInterchangeRole);
   if (role == facts.roles.end()) {
-    throw InputError(base.string(), "role", kInterchangeRole,
-                     "is missing; add it to the roles: it names the config's ACES2065-1, which tells what its spaces are");
+    throw InputError(
+        base.string(), "role", kInterchangeRole,
+        "is missing; add it to the roles: it names the config's ACES2065-1, which tells what its spaces are");
   }
   if (!facts.space(role->second)) {
     throw InputError(base.string(), "role", kInterchangeRole,

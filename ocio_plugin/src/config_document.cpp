@@ -111,7 +111,8 @@ class Editor {
   std::string placeOf(std::size_t line) const { return m_where + ":" + std::to_string(line + 1); }
 
   std::size_t lineOf(const std::string& key) const {
-    const auto found = std::find_if(m_keys.begin(), m_keys.end(), [&](const auto& entry) { return entry.first == key; });
+    const auto found =
+        std::find_if(m_keys.begin(), m_keys.end(), [&](const auto& entry) { return entry.first == key; });
     return found->second;
   }
 
@@ -248,11 +249,12 @@ std::string ConfigDocument::with(const std::string& looks, const std::string& na
     editor.addSearchFolder(searchFolder);
   }
   std::string result = editor.text();
-  const std::map<std::string, std::size_t> added = {
-      {"looks", YAML::Load(looks).size()}, {"named_transforms", YAML::Load(namedTransforms).size()}};
+  const std::map<std::string, std::size_t> added = {{"looks", YAML::Load(looks).size()},
+                                                    {"named_transforms", YAML::Load(namedTransforms).size()}};
   if (!isExtension(before, parseConfigYaml(result, m_where), added, searchFolder)) {
-    throw InputError(m_where, "config", "",
-                     "is written in a way that cannot be added to without changing it; load and save it with OCIO once");
+    throw InputError(
+        m_where, "config", "",
+        "is written in a way that cannot be added to without changing it; load and save it with OCIO once");
   }
   return result;
 }

@@ -16,13 +16,13 @@ struct ConfigFacts {
   int minorVersion = 0;
   char familySeparator = '/';
   std::vector<std::string> searchPath;
-  std::map<std::string, std::string> roles;        ///< lower-case role to colour space
-  std::map<std::string, std::string> spaces;       ///< lower-case name or alias of a colour space to its name
-  std::set<std::string> dataSpaces;                ///< names
-  std::vector<std::string> spaceNames;             ///< in their order
-  std::set<std::string> taken;                     ///< lower-case: names, aliases and roles no transform may have
-  std::set<std::string> looks;                     ///< lower-case
-  std::vector<std::string> files;                  ///< what its transforms read, as written, each once
+  std::map<std::string, std::string> roles;   ///< lower-case role to colour space
+  std::map<std::string, std::string> spaces;  ///< lower-case name or alias of a colour space to its name
+  std::set<std::string> dataSpaces;           ///< names
+  std::vector<std::string> spaceNames;        ///< in their order
+  std::set<std::string> taken;                ///< lower-case: names, aliases and roles no transform may have
+  std::set<std::string> looks;                ///< lower-case
+  std::vector<std::string> files;             ///< what its transforms read, as written, each once
 
   /// Name of a colour space by its name, alias or role, without regard to case.
   std::optional<std::string> space(const std::string& name) const;

@@ -13,12 +13,12 @@ using ConfigStep = std::variant<std::string, Eigen::Matrix3d>;
 
 /// A look and a named transform that do the same, in the words of a config.
 struct ConfigItem {
-  std::string name;  ///< of the look
+  std::string name;          ///< of the look
   std::string processSpace;  ///< linear: the steps work there
   std::string pixelSpace;    ///< of the named transform
   std::string family;
-  std::string encoding;      ///< of pixelSpace; empty where it is not known
-  std::string description;   ///< lines
+  std::string encoding;     ///< of pixelSpace; empty where it is not known
+  std::string description;  ///< lines
   std::vector<ConfigStep> steps;
 };
 

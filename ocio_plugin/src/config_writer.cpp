@@ -142,11 +142,10 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
     throw InputError("", "LUT folder", options.lutFolder, "must be one name, of a folder beside the config");
   }
   const ConfigDocument document =
-      options.base.empty()
-          ? ConfigDocument(newConfigText(options.name.empty() ? file.stem().string() : options.name,
-                                         options.description, options.lutFolder, library),
-                           file.string())
-          : openBaseConfig(options.base, file);
+      options.base.empty() ? ConfigDocument(newConfigText(options.name.empty() ? file.stem().string() : options.name,
+                                                          options.description, options.lutFolder, library),
+                                            file.string())
+                           : openBaseConfig(options.base, file);
   const ConfigFacts& facts = document.facts();
   const std::string where = options.base.empty() ? file.string() : options.base.string();
   checkNames(recipes, facts, where);
@@ -188,8 +187,12 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
       const std::vector<ConfigStep> steps = stepsOf(core, use, baked, place.prefix + lutName, library);
       entry.certificate = certificateOf(core, use, baked, lutPath, library);
 
-      ConfigItem item{entry.name, entry.processSpace, entry.pixelSpace,
-                      familyOf(use.recipe, options.family, facts.familySeparator), use.encoding, descriptionOf(entry),
+      ConfigItem item{entry.name,
+                      entry.processSpace,
+                      entry.pixelSpace,
+                      familyOf(use.recipe, options.family, facts.familySeparator),
+                      use.encoding,
+                      descriptionOf(entry),
                       steps};
       items.push_back(item);
       for (ConfigStep& step : item.steps) {

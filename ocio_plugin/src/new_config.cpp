@@ -33,8 +33,7 @@ constexpr std::array<ViewTransform, 5> kViewTransforms{{
      "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - HDR-VIDEO-1000nit-15nit-REC2020lim_1.1",
      "ACES 1, 1000 nit HDR video, Rec.2020"},
     {"ACES 1.1 - HDR Video (1000 nits & P3 lim)",
-     "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - HDR-VIDEO-1000nit-15nit-P3lim_1.1",
-     "ACES 1, 1000 nit HDR video, P3"},
+     "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - HDR-VIDEO-1000nit-15nit-P3lim_1.1", "ACES 1, 1000 nit HDR video, P3"},
 }};
 
 struct Display {
@@ -191,17 +190,17 @@ std::string newConfigText(const std::string& name, const std::string& descriptio
   addDisplays(config);
 
   const std::array<std::array<const char*, 2>, 12> roles{{{"default", "ACES2065-1"},
-                                                         {"reference", "ACES2065-1"},
-                                                         {"rendering", "ACEScg"},
-                                                         {"aces_interchange", "ACES2065-1"},
-                                                         {"cie_xyz_d65_interchange", kConnection},
-                                                         {"scene_linear", "ACEScg"},
-                                                         {"compositing_log", "ACEScct"},
-                                                         {"color_timing", "ACEScct"},
-                                                         {"color_picking", kTexture},
-                                                         {"texture_paint", kTexture},
-                                                         {"matte_paint", kTexture},
-                                                         {"data", kRaw}}};
+                                                          {"reference", "ACES2065-1"},
+                                                          {"rendering", "ACEScg"},
+                                                          {"aces_interchange", "ACES2065-1"},
+                                                          {"cie_xyz_d65_interchange", kConnection},
+                                                          {"scene_linear", "ACEScg"},
+                                                          {"compositing_log", "ACEScct"},
+                                                          {"color_timing", "ACEScct"},
+                                                          {"color_picking", kTexture},
+                                                          {"texture_paint", kTexture},
+                                                          {"matte_paint", kTexture},
+                                                          {"data", kRaw}}};
   for (const auto& role : roles) {
     config->setRole(role[0], role[1]);
   }

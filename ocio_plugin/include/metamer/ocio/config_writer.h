@@ -13,12 +13,12 @@
 namespace metamer::ocio {
 
 struct ConfigOptions {
-  std::filesystem::path base;                ///< config to add to; empty: a new one
-  std::string lutFolder = "luts";            ///< beside the config, one name
-  std::string name;                          ///< of a new config; empty: the file's stem
-  std::string description;                   ///< of a new config
-  std::string family = "metamer";            ///< of the named transforms, above what they change
-  int size = 0;                              ///< as BakeOptions
+  std::filesystem::path base;      ///< config to add to; empty: a new one
+  std::string lutFolder = "luts";  ///< beside the config, one name
+  std::string name;                ///< of a new config; empty: the file's stem
+  std::string description;         ///< of a new config
+  std::string family = "metamer";  ///< of the named transforms, above what they change
+  int size = 0;                    ///< as BakeOptions
 };
 
 /// What one recipe became.
