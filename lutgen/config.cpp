@@ -26,6 +26,12 @@ void writeConfig(const ConfigArguments& arguments) {
   ocio::ConfigOptions options = arguments.options;
   options.base = arguments.base;
   const ocio::ConfigReport report = ocio::writeConfig(recipes, library, arguments.output, options);
+  for (const ocio::ConfigEntry& entry : report.entries) {
+    if (options.tolerance && entry.certificate.error.p99 > *options.tolerance) {
+      std::cout << entry.name << ": p99 " << entry.certificate.error.p99
+                << " is beyond the tolerance; a larger --size is needed\n";
+    }
+  }
   if (!report.isLoaded) {
     std::cout << arguments.output << ": profile " << report.majorVersion << '.' << report.minorVersion
               << " is later than OpenColorIO " << OCIO_NAMESPACE::GetVersion()
@@ -51,6 +57,10 @@ void addConfig(CLI::App& application) {
   command->add_option("--family", arguments->options.family, "Family of the named transforms; metamer by default");
   command->add_option("--size", arguments->options.size, "Nodes along a side of the tables; 65 by default")
       ->check(CLI::Range(ocio::kSmallestTable, ocio::kLargestTable));
+  command
+      ->add_option("--tolerance", arguments->options.tolerance,
+                   "99th percentile of CIEDE2000 to hold with the least: nothing, a matrix, tables up to --size")
+      ->check(CLI::NonNegativeNumber);
   command->callback([arguments] { writeConfig(*arguments); });
 }
 

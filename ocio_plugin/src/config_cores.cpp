@@ -3,6 +3,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -21,6 +23,9 @@ using spectral::InputError;
 constexpr const char* kInterchangeRole = "aces_interchange";
 constexpr const char* kInterchangeSpace = "ACES2065-1";
 constexpr const char* kChart = "colorchecker";
+constexpr int kChainSize = 65;
+constexpr std::array<int, 8> kTableSizes = {9, 13, 17, 21, 25, 33, 49, 65};
+constexpr double kRounding = 1e5;
 
 /// Where a recipe's transform stands in a config.
 struct Place {
@@ -128,6 +133,75 @@ std::optional<Eigen::Matrix3d> asMatrix(const OCIO::ConstGroupTransformRcPtr& gr
   return product;
 }
 
+/// The first of nothing, a matrix and tables of rising size that holds a tolerance.
+Baked cheapest(const sip::Recipe& recipe, const spectral::DataLibrary& library, int size,
+               std::optional<double> tolerance) {
+  const int largest = size != 0 ? size : kChainSize;
+  BakeOptions options;
+  options.size = largest;
+  if (tolerance) {
+    options.representation = Representation::Matrix;
+    Baked baked = bake(recipe, library, options);
+    if (baked.certificate.error.p99 <= *tolerance) {
+      // A matrix that changes nothing comes from a recipe that does nothing.
+      options.representation.reset();
+      return baked.certificate.error.max < 1e-3 ? bake(recipe, library, options) : baked;
+    }
+    options.representation.reset();
+    for (const int nodes : kTableSizes) {
+      options.size = nodes;
+      if (nodes < largest && (baked = bake(recipe, library, options)).certificate.error.p99 <= *tolerance) {
+        return baked;
+      }
+    }
+    options.size = largest;
+  }
+  return bake(recipe, library, options);
+}
+
+/// Tables with their values rounded, so that they are short as text.
+OCIO::GroupTransformRcPtr rounded(const OCIO::ConstGroupTransformRcPtr& group) {
+  const auto shorter = [](float value) { return static_cast<float>(std::round(value * kRounding) / kRounding); };
+  auto copy = OCIO::DynamicPtrCast<OCIO::GroupTransform>(group->createEditableCopy());
+  for (int k = 0; k < copy->getNumTransforms(); ++k) {
+    const auto transform = copy->getTransform(k);
+    std::array<float, 3> rgb{};
+    if (const auto cube = OCIO::DynamicPtrCast<OCIO::Lut3DTransform>(transform)) {
+      const unsigned long size = cube->getGridSize();
+      for (unsigned long node = 0; node < size * size * size; ++node) {
+        const std::array<unsigned long, 3> at = {node / (size * size), node / size % size, node % size};
+        cube->getValue(at[0], at[1], at[2], rgb[0], rgb[1], rgb[2]);
+        cube->setValue(at[0], at[1], at[2], shorter(rgb[0]), shorter(rgb[1]), shorter(rgb[2]));
+      }
+    } else if (const auto curve = OCIO::DynamicPtrCast<OCIO::Lut1DTransform>(transform)) {
+      for (unsigned long entry = 0; entry < curve->getLength(); ++entry) {
+        curve->getValue(entry, rgb[0], rgb[1], rgb[2]);
+        curve->setValue(entry, shorter(rgb[0]), shorter(rgb[1]), shorter(rgb[2]));
+      }
+    }
+  }
+  return copy;
+}
+
+/// Lines of numbers without the spaces that align them.
+std::string squeezed(const std::string& text) {
+  std::string result;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    const std::string line = text.substr(begin, end - begin);
+    if (line.find_first_not_of("0123456789+-.eE \n") != std::string::npos) {
+      result += line;
+    } else {
+      for (std::size_t k = 0; k < line.size(); ++k) {
+        const bool isNeeded = line[k] != ' ' || (!result.empty() && result.back() != '\n' && result.back() != ' ');
+        result += isNeeded ? std::string(1, line[k]) : std::string();
+      }
+    }
+    begin = end;
+  }
+  return result;
+}
+
 sip::TransformSpec specOf(const ConfigCore& core, const spectral::DataLibrary& library) {
   return sip::resolve(core.recipe, library, library.colourSpace(core.recipe.space).linear);
 }
@@ -166,14 +240,15 @@ std::vector<ConfigCore> coresOf(const std::vector<sip::Recipe>& recipes, const C
   return cores;
 }
 
-BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library, const BakeOptions& options) {
-  Baked baked = bake(core.recipe, library, options);
+BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library, int size,
+                   std::optional<double> tolerance) {
+  Baked baked = cheapest(core.recipe, library, size, tolerance);
   BakedCore result{baked.group, std::move(baked.certificate), ""};
   if (!asMatrix(result.group)) {
     const LutFormat& format = lutFormat("core.ctf", "");
     const LutDescription description{core.name, "metamer-" + sha256(sip::toYaml(core.recipe)).substr(0, 16),
                                      result.certificate.lines()};
-    result.lutText = lutText(format, result.group, result.certificate.size, description);
+    result.lutText = squeezed(lutText(format, rounded(result.group), result.certificate.size, description));
     result.certificate.format = format.name;
     result.certificate.sha256 = sha256(result.lutText);
   }

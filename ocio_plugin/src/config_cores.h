@@ -39,7 +39,10 @@ struct BakedCore {
   Certificate certificate;
   std::string lutText;  ///< of its .ctf; empty where it is matrices alone
 };
-BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library, const BakeOptions& options);
+/// Numbers of its tables have five digits behind the point: a hundredth of a CIEDE2000 at most, for half the file.
+/// @param size, tolerance  as ConfigOptions
+BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library, int size,
+                   std::optional<double> tolerance);
 
 /// What the look of a use does in the core's process space.
 /// @param src  how the config names the core's file
