@@ -9,5 +9,7 @@ namespace metamer::lutgen {
 void addBake(CLI::App& application);
 void addApply(CLI::App& application);
 void addList(CLI::App& application);
+void addConfig(CLI::App& application);
+void addCompare(CLI::App& application);
 
 }  // namespace metamer::lutgen

@@ -31,10 +31,15 @@ int main(int argumentCount, char** arguments) {
   metamer::lutgen::addBake(application);
   metamer::lutgen::addApply(application);
   metamer::lutgen::addList(application);
+  metamer::lutgen::addConfig(application);
+  metamer::lutgen::addCompare(application);
   try {
     application.parse(argumentCount, arguments);
     std::cout.flush();
     return std::cout ? 0 : fail("standard output cannot be written", kFailure);
+  } catch (const CLI::RuntimeError& verdict) {
+    std::cout.flush();
+    return verdict.get_exit_code();  // what a command found, not a failure
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
       return application.exit(error);  // help or version, on stdout

@@ -2,6 +2,7 @@
 #include "picture.h"
 
 #include <OpenImageIO/parallel.h>
+#include <OpenImageIO/strutil.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +82,28 @@ void Picture::forEachRow(const std::function<void(std::span<float> rgba)>& body,
         }
       },
       OIIO::parallel_options(threads));
+}
+
+std::vector<float> Picture::pixels() {
+  std::vector<float> all;
+  all.reserve(4 * static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()));
+  for (int row = 0; row < height(); ++row) {
+    changeRow(row, [&](std::span<float> rgba) { all.insert(all.end(), rgba.begin(), rgba.end()); });
+  }
+  return all;
+}
+
+bool Picture::isSrgb() const {
+  return OIIO::Strutil::iequals(m_pixels.spec().get_string_attribute("oiio:ColorSpace"), "sRGB");
+}
+
+void decodeSrgb(std::span<float> rgba) {
+  for (std::size_t i = 0; i < rgba.size(); ++i) {
+    if (i % 4 != 3) {
+      const double value = rgba[i];
+      rgba[i] = static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+    }
+  }
 }
 
 void Picture::write(const std::filesystem::path& file) const {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace metamer::lutgen {
 
@@ -21,6 +22,14 @@ class Picture {
   /// @param threads  0: as many as the machine has
   void forEachRow(const std::function<void(std::span<float> rgba)>& body, int threads);
 
+  int width() const { return m_pixels.spec().width; }
+  /// Rows, those of every slice of a volume.
+  int height() const { return m_pixels.spec().height * m_pixels.spec().depth; }
+  /// All pixels as RGBA, row by row, alpha 1.
+  std::vector<float> pixels();
+  /// Whether the file says, or its format implies, that the pixels are encoded as sRGB.
+  bool isSrgb() const;
+
   /// Writes it whole or not at all, as float where the format can.
   /// @throws spectral::InputError
   void write(const std::filesystem::path& file) const;
@@ -31,5 +40,8 @@ class Picture {
   OIIO::ImageBuf m_pixels;
   std::array<int, 3> m_colours{};  ///< channels of red, green, blue
 };
+
+/// The sRGB curve (IEC 61966-2-1) undone on the colours of RGBA pixels, in place.
+void decodeSrgb(std::span<float> rgba);
 
 }  // namespace metamer::lutgen

@@ -118,14 +118,15 @@ std::vector<double> spreadTicks(const std::vector<double>& at, const std::vector
   };
   const double atWhite = interpolate(at, sum, white);
   const int below = std::clamp(static_cast<int>(std::lround((count - 1) * atWhite / sum.back())), 1, count - 2);
+  const double steps = tickSteps(count);
   std::vector<double> ticks;
   for (int k = 0; k < count; ++k) {
     const double target =
         k <= below ? atWhite * k / below : atWhite + (sum.back() - atWhite) * (k - below) / (count - 1 - below);
     // On the curve's entries, so that a look-up in it bends nowhere else.
-    double tick = std::round(interpolate(sum, at, target) * kTickSteps) / kTickSteps;
-    tick = std::max(tick, ticks.empty() ? 0.0 : ticks.back() + 1.0 / kTickSteps);
-    ticks.push_back(std::min(tick, 1.0 - static_cast<double>(count - 1 - k) / kTickSteps));
+    double tick = std::round(interpolate(sum, at, target) * steps) / steps;
+    tick = std::max(tick, ticks.empty() ? 0.0 : ticks.back() + 1.0 / steps);
+    ticks.push_back(std::min(tick, 1.0 - static_cast<double>(count - 1 - k) / steps));
   }
   return ticks;
 }
@@ -275,8 +276,8 @@ std::size_t whiteNode(const PlaneLattice& lattice, const Eigen::Vector2d& white)
   std::array<int, 2> node{};
   for (int axis = 0; axis < 2; ++axis) {
     const auto& along = lattice.ticks[axis];
-    node[axis] = static_cast<int>(std::lower_bound(along.begin(), along.end() - 1, white[axis] - 0.5 / kTickSteps) -
-                                  along.begin());
+    const double half = 0.5 / tickSteps(static_cast<int>(along.size()));
+    node[axis] = static_cast<int>(std::lower_bound(along.begin(), along.end() - 1, white[axis] - half) - along.begin());
   }
   return lattice.index(node[0], node[1]);
 }

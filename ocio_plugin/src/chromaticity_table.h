@@ -6,8 +6,11 @@
 
 namespace metamer::ocio {
 
-/// Ticks of a table lie on multiples of 1 / kTickSteps, so that a curve with this many steps bends at them exactly.
-inline constexpr int kTickSteps = 4096;
+/// Ticks of a table lie on multiples of 1 / tickSteps(size), so that a curve with this many steps bends at them
+/// exactly. A small table's error is far above what finer steps would save, and its curve would be most of its file.
+constexpr int tickSteps(int size) {
+  return size < 48 ? 1024 : 4096;
+}
 
 /// A spectral transform over the plane of chromaticity. A node holds the output's (a, b), and the output's amount less
 /// the input's, in stops. What lies between the nodes is exact where the transform is its unconstrained matrix.

@@ -40,10 +40,11 @@ OCIO::LogCameraTransformRcPtr amountLog(OCIO::TransformDirection direction) {
 
 /// The curve that turns ticks into even steps: identity on the third channel.
 OCIO::Lut1DTransformRcPtr tickCurves(const std::array<std::vector<double>, 2>& ticks) {
-  auto curve = OCIO::Lut1DTransform::Create(kTickSteps + 1, false);
+  const int steps = tickSteps(static_cast<int>(ticks[0].size()));
+  auto curve = OCIO::Lut1DTransform::Create(static_cast<unsigned long>(steps) + 1, false);
   std::array<std::size_t, 2> cell{};
-  for (int entry = 0; entry <= kTickSteps; ++entry) {
-    const double at = static_cast<double>(entry) / kTickSteps;
+  for (int entry = 0; entry <= steps; ++entry) {
+    const double at = static_cast<double>(entry) / steps;
     std::array<double, 2> value{};
     for (int axis = 0; axis < 2; ++axis) {
       const auto& along = ticks[axis];

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <OpenColorIO/OpenColorIO.h>
+
+#include <iostream>
+#include <memory>
+
+#include "commands.h"
+#include "metamer/ocio/config_writer.h"
+
+namespace metamer::lutgen {
+namespace {
+
+struct ConfigArguments {
+  std::vector<std::string> recipes;
+  std::string output;
+  std::string base;
+  ocio::ConfigOptions options;
+};
+
+void writeConfig(const ConfigArguments& arguments) {
+  const auto library = spectral::DataLibrary::openDefault();
+  std::vector<sip::Recipe> recipes;
+  for (const std::string& file : arguments.recipes) {
+    recipes.push_back(sip::readRecipe(file));
+  }
+  ocio::ConfigOptions options = arguments.options;
+  options.base = arguments.base;
+  const ocio::ConfigReport report = ocio::writeConfig(recipes, library, arguments.output, options);
+  for (const ocio::ConfigEntry& entry : report.entries) {
+    if (options.tolerance && entry.certificate.error.p99 > *options.tolerance) {
+      std::cout << entry.name << ": p99 " << entry.certificate.error.p99
+                << " is beyond the tolerance; a larger --size is needed\n";
+    }
+  }
+  if (!report.isLoaded) {
+    std::cout << arguments.output << ": profile " << report.majorVersion << '.' << report.minorVersion
+              << " is later than OpenColorIO " << OCIO_NAMESPACE::GetVersion()
+              << " knows; what is added was checked in a config of profile 2.1\n";
+  }
+}
+
+}  // namespace
+
+void addConfig(CLI::App& application) {
+  CLI::App* command =
+      application.add_subcommand("config", "Write an OCIO config with a look and a named transform a recipe");
+  const auto arguments = std::make_shared<ConfigArguments>();
+  command->add_option("RECIPE", arguments->recipes, "Recipe files")->required();
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Config to write; its LUT files, and a certificate a recipe, go into a folder beside it")
+      ->required();
+  command->add_option("--base", arguments->base, "Config to add to; every byte of it is kept. A new config without");
+  command->add_option("--lut-folder", arguments->options.lutFolder, "Name of the folder; luts by default");
+  command->add_option("--name", arguments->options.name, "Name of a new config; the file's by default");
+  command->add_option("--description", arguments->options.description, "Description of a new config");
+  command->add_option("--family", arguments->options.family, "Family of the named transforms; metamer by default");
+  command->add_option("--size", arguments->options.size, "Nodes along a side of the tables; 65 by default")
+      ->check(CLI::Range(ocio::kSmallestTable, ocio::kLargestTable));
+  command
+      ->add_option("--tolerance", arguments->options.tolerance,
+                   "99th percentile of CIEDE2000 to hold with the least: nothing, a matrix, tables up to --size")
+      ->check(CLI::NonNegativeNumber);
+  command->callback([arguments] { writeConfig(*arguments); });
+}
+
+}  // namespace metamer::lutgen

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/sip/comparison.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "metamer/spectral/colorimetry.h"
+
+namespace metamer::sip {
+namespace {
+
+constexpr double kMiddle = 0.18;
+
+/// CIEDE2000 relative to a white, the matrix from RGB at hand.
+class Difference {
+ public:
+  explicit Difference(const spectral::RgbSpace& space) : m_xyzFromRgb(space.xyzFromRgb()), m_white(space.whiteXyz()) {}
+
+  double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double exposure) const {
+    if (!a.allFinite() || !b.allFinite()) {
+      const auto isSame = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+      const bool same = isSame(a[0], b[0]) && isSame(a[1], b[1]) && isSame(a[2], b[2]);
+      return same ? 0.0 : std::numeric_limits<double>::infinity();
+    }
+    const double error = spectral::deltaE2000(spectral::lab(m_xyzFromRgb * a / exposure, m_white),
+                                              spectral::lab(m_xyzFromRgb * b / exposure, m_white));
+    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+  }
+  double luminance(const Eigen::Vector3d& rgb) const { return m_xyzFromRgb.row(1).dot(rgb); }
+
+ private:
+  Eigen::Matrix3d m_xyzFromRgb;
+  Eigen::Vector3d m_white;
+};
+
+Eigen::Vector3d pixelAt(std::span<const float> rgba, std::size_t index) {
+  return Eigen::Map<const Eigen::Vector3f>(rgba.data() + 4 * index).cast<double>();
+}
+
+}  // namespace
+
+Comparison summarise(std::vector<ComparedColour> colours) {
+  Comparison result;
+  result.colours = std::move(colours);
+  if (result.colours.empty()) {
+    return result;
+  }
+  std::vector<double> errors;
+  errors.reserve(result.colours.size());
+  for (std::size_t i = 0; i < result.colours.size(); ++i) {
+    const double error = result.colours[i].deltaE;
+    errors.push_back(error);
+    result.mean += error;
+    if (error > result.colours[result.worst].deltaE) {
+      result.worst = i;
+    }
+  }
+  result.max = result.colours[result.worst].deltaE;
+  result.mean /= static_cast<double>(errors.size());
+  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(errors.size()))) - 1;
+  std::nth_element(errors.begin(), errors.begin() + rank, errors.end());
+  result.p99 = errors[static_cast<std::size_t>(rank)];
+  return result;
+}
+
+Comparison compareTransforms(const spectral::RgbSpace& space, const std::vector<ErrorProtocol::Probe>& probes,
+                             int lowestStop, int highestStop, const std::function<void(std::span<float>)>& a,
+                             const std::function<void(std::span<float>)>& b) {
+  const Difference difference(space);
+  std::vector<ComparedColour> colours;
+  std::vector<float> in(4 * probes.size());
+  for (int stop = lowestStop; stop <= highestStop; ++stop) {
+    const double exposure = std::ldexp(1.0, stop);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      Eigen::Map<Eigen::Vector4f>(in.data() + 4 * i) << (exposure * probes[i].rgb).cast<float>(), 1.0F;
+    }
+    std::vector<float> byA = in;
+    std::vector<float> byB = in;
+    a(byA);
+    b(byB);
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      colours.push_back({probes[i].name, exposure * probes[i].rgb, static_cast<double>(stop),
+                         difference(pixelAt(byA, i), pixelAt(byB, i), exposure)});
+    }
+  }
+  return summarise(std::move(colours));
+}
+
+Comparison comparePixels(const spectral::RgbSpace& space, std::span<const float> a, std::span<const float> b,
+                         int darkestStop) {
+  assert(a.size() == b.size());
+  const Difference difference(space);
+  std::vector<ComparedColour> colours;
+  colours.reserve(a.size() / 4);
+  for (std::size_t i = 0; i < a.size() / 4; ++i) {
+    const Eigen::Vector3d first = pixelAt(a, i);
+    const Eigen::Vector3d second = pixelAt(b, i);
+    const double relative = first.allFinite() ? difference.luminance(first) / kMiddle : 1.0;
+    const double exposure = std::max(relative, std::ldexp(1.0, darkestStop));
+    colours.push_back({"", first, std::log2(exposure), difference(first, second, exposure)});
+  }
+  return summarise(std::move(colours));
+}
+
+}  // namespace metamer::sip

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: Apache-2.0
+"""lutgen compare and lutgen config, as a build server calls them."""
+
+import json
+import unittest
+import xml.etree.ElementTree
+
+import numpy as np
+import OpenEXR
+from PIL import Image
+
+from lutgen import LutgenTest, lutgen
+
+NIGHT = "metamer: 1\nname: night\nspace: ACEScg\ninput: {illuminant: D65}\noutput: {illuminant: HP1, adaptation: 0.5}\n"
+
+
+def write_exr(file, pixels):
+    OpenEXR.File(
+        {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage},
+        {channel: pixels[..., k].copy() for k, channel in enumerate("RGB")},
+    ).write(str(file))
+
+
+class Compare(LutgenTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "night.yaml").write_text(NIGHT)
+
+    def compared(self, *arguments, code=0):
+        run = lutgen("compare", *arguments, "--json", "out.json", folder=self.folder)
+        self.assertEqual(run.returncode, code, run.stderr + run.stdout)
+        self.assertEqual(run.stderr, "")
+        return json.loads((self.folder / "out.json").read_text())
+
+    def test_recipe_against_file_is_what_the_certificate_says(self):
+        for name in ("a.ctf", "b.clf", "c.cube"):
+            self.assertWorks("bake", "night.yaml", "-o", name, "--size", "17")
+            error = self.compared("night.yaml", name)["error"]
+            certificate = json.loads((self.folder / f"{name}.json").read_text())["error"]
+            self.assertEqual(error["count"], certificate["count"])
+            for key in ("mean", "p99", "max"):
+                # Both go through floats, the certificate's reference does not.
+                self.assertAlmostEqual(error[key], certificate[key], delta=2e-3 + 1e-3 * certificate[key], msg=name)
+
+    def test_a_cube_of_another_tool_is_read_by_the_flags(self):
+        # A light that a small cube follows well, so that a wrong curve stands out.
+        (self.folder / "dawn.yaml").write_text(NIGHT.replace("HP1", "D50"))
+        self.assertWorks("bake", "dawn.yaml", "-o", "a.cube", "--shaper", "LogC3")
+        certified = self.compared("dawn.yaml", "a.cube")["error"]
+        (self.folder / "a.cube.json").unlink()
+        told = self.compared("dawn.yaml", "a.cube", "--shaper", "LogC3")["error"]
+        self.assertEqual(told, certified)
+        taken_wrong = self.compared("dawn.yaml", "a.cube", "--shaper", "S-Log3")["error"]
+        self.assertGreater(taken_wrong["mean"], 1.1 * certified["mean"])
+
+    def test_tolerance_decides_the_exit_code(self):
+        (self.folder / "dusk.yaml").write_text(NIGHT.replace("0.5", "0.6"))
+        self.assertWorks("bake", "night.yaml", "-o", "a.ctf", "--size", "17")
+        self.assertWorks("bake", "night.yaml", "-o", "b.ctf", "--size", "17")
+        same = self.compared("a.ctf", "b.ctf", "--tolerance", "0")
+        self.assertEqual((same["error"]["max"], same["tolerance"]["passed"]), (0, True))
+        other = self.compared("night.yaml", "dusk.yaml", "--tolerance", "0.5", "--junit", "out.xml", code=3)
+        self.assertFalse(other["tolerance"]["passed"])
+        self.assertGreater(other["error"]["mean"], 0.5)
+        suite = xml.etree.ElementTree.parse(self.folder / "out.xml").getroot().find("testsuite")
+        self.assertEqual((suite.get("tests"), suite.get("failures")), ("1", "1"))
+        self.assertIn("tolerance 0.5", suite.find("testcase/failure").get("message"))
+        # The statistic that the tolerance is for.
+        middle = (other["error"]["mean"] + other["error"]["max"]) / 2
+        self.compared("night.yaml", "dusk.yaml", "--tolerance", middle, "--statistic", "mean", "--junit", "out.xml")
+        suite = xml.etree.ElementTree.parse(self.folder / "out.xml").getroot().find("testsuite")
+        self.assertEqual(suite.get("failures"), "0")
+        self.compared("night.yaml", "dusk.yaml", "--tolerance", middle, "--statistic", "max", code=3)
+
+    def test_a_look_against_its_recipe(self):
+        self.assertWorks("config", "night.yaml", "-o", "c.ocio", "--size", "17")
+        look = self.compared("night.yaml", "c.ocio", "--tolerance", "20")["error"]
+        by_name = self.compared("c.ocio:night", "night.yaml")["error"]
+        certificate = json.loads((self.folder / "luts" / "night.json").read_text())["error"]
+        self.assertAlmostEqual(look["p99"], certificate["p99"], delta=1e-2)
+        self.assertAlmostEqual(by_name["p99"], certificate["p99"], delta=1e-2)
+        self.assertLess(self.compared("c.ocio:night", "luts/night.ctf", "--space", "ACEScg")["error"]["max"], 1e-2)
+        # CI finds out that a look changed.
+        (self.folder / "night.yaml").write_text(NIGHT.replace("HP1", "FL11"))
+        self.compared("night.yaml", "c.ocio", "--tolerance", "1", code=3)
+
+    def test_pictures(self):
+        pixels = np.random.default_rng(4).random((20, 30, 3)).astype(np.float32) + 0.1
+        write_exr(self.folder / "a.exr", pixels)
+        changed = pixels.copy()
+        changed[7, 11, 0] *= 1.5
+        write_exr(self.folder / "b.exr", changed)
+        self.assertEqual(self.compared("a.exr", "a.exr", "--tolerance", "0", "--statistic", "max")["error"]["max"], 0)
+        error = self.compared("a.exr", "b.exr", "--plot", "plot.png", "--tolerance", "1", "--statistic", "max", code=3)
+        self.assertEqual(error["error"]["count"], 600)
+        self.assertGreater(error["error"]["max"], 3)
+        self.assertLess(error["error"]["p99"], 1e-3)
+        with Image.open(self.folder / "plot.png") as plot:
+            sheet = np.asarray(plot.convert("RGB")).astype(int)
+        # The picture's panel has one bright spot where the pixel is.
+        panel = sheet[56:56 + 306, 56 + 2 * (460 + 56):56 + 2 * (460 + 56) + 460]
+        y, x = np.unravel_index(panel.sum(axis=2).argmax(), panel.shape[:2])
+        self.assertEqual((int(y / 306 * 20), int(x / 460 * 30)), (7, 11))
+        # Encoded pictures are decoded.
+        for name in ("a.png", "b.png"):
+            Image.fromarray((pixels[..., :3] * 200).astype(np.uint8)).save(self.folder / name)
+        self.assertEqual(self.compared("a.png", "b.png")["space"], "Rec.709")
+        self.assertFails("compare", "a.exr", "a.png", says=["--space"])
+        write_exr(self.folder / "small.exr", pixels[:5])
+        self.assertFails("compare", "a.exr", "small.exr", says=["small.exr", "30 x 5", "30 x 20"])
+
+    def test_plot_of_transforms(self):
+        self.assertWorks("bake", "night.yaml", "-o", "a.cube", "--size", "9")
+        self.compared("night.yaml", "a.cube", "--plot", "plot.png")
+        with Image.open(self.folder / "plot.png") as plot:
+            self.assertEqual(plot.size, (56 + 2 * (460 + 56) + 18 + 56, 460 + 112))
+            sheet = np.asarray(plot.convert("RGB")).astype(int)
+        # Something bright, something dark and the background within the plane of chromaticities.
+        plane = sheet[56:516, 56:516].sum(axis=2)
+        self.assertGreater(plane.max(), 500)
+        self.assertLess(plane.min(), 100)
+
+    def test_bad_input_is_named(self):
+        self.assertWorks("bake", "night.yaml", "-o", "a.ctf", "--size", "5")
+        self.assertWorks("config", "night.yaml", "-o", "c.ocio", "--size", "5")
+        (self.folder / "bad.ctf").write_text("<ProcessList>")
+        (self.folder / "d.cube").write_text("LUT_3D_SIZE 2\n" + "0 0 0\n" * 8)
+        (self.folder / "d.cube.json").write_text('{"metamer_certificate": 1}')
+        write_exr(self.folder / "p.exr", np.ones((2, 2, 3), np.float32))
+        for arguments, says in [
+            (["night.yaml", "missing.ctf"], ["missing.ctf"]),
+            (["missing.yaml", "a.ctf"], ["missing.yaml"]),
+            (["night.yaml", "bad.ctf"], ["bad.ctf", "cannot be read"]),
+            (["night.yaml", "d.cube"], ["d.cube.json", "certificate"]),
+            (["night.yaml", "p.exr"], ["p.exr", "picture"]),
+            (["c.ocio:nigh", "a.ctf"], ["look 'nigh'", "night"]),
+            (["c.ocio", "a.ctf"], ["c.ocio:LOOK"]),
+            (["missing.ocio:night", "a.ctf"], ["missing.ocio"]),
+            (["a.ctf", "a.ctf", "--plot", "no/such/plot.png"], ["no/such/plot.png"]),
+            (["a.ctf", "a.ctf", "--json", "no/such/out.json"], ["no/such/out.json"]),
+        ]:
+            with self.subTest(arguments):
+                self.assertFails("compare", *arguments, says=says)
+        for arguments in (["a.ctf"], ["a.ctf", "a.ctf", "--tolerance", "-1"], ["a.ctf", "a.ctf", "--statistic", "sum"]):
+            self.assertFails("compare", *arguments, code=2)
+
+
+class Config(LutgenTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "night.yaml").write_text(NIGHT)
+
+    def test_bad_input_is_named(self):
+        (self.folder / "bad.ocio").write_text("ocio_profile_version: [\n")
+        (self.folder / "hp9.yaml").write_text(NIGHT.replace("HP1", "HP9"))
+        for arguments, says in [
+            (["night.yaml", "-o", "out.ocio", "--base", "bad.ocio"], ["bad.ocio", "YAML"]),
+            (["night.yaml", "-o", "out.ocio", "--base", "missing.ocio"], ["missing.ocio"]),
+            (["hp9.yaml", "-o", "out.ocio"], ["illuminant 'HP9'", "HP1"]),
+            (["missing.yaml", "-o", "out.ocio"], ["missing.yaml"]),
+            (["night.yaml", "night.yaml", "-o", "out.ocio"], ["name 'night'"]),
+            (["night.yaml", "-o", "no/such/out.ocio"], ["no/such/out.ocio"]),
+            (["night.yaml", "-o", "out.ocio", "--lut-folder", "a/b"], ["LUT folder 'a/b'"]),
+        ]:
+            with self.subTest(arguments):
+                self.assertFails("config", *arguments, says=says)
+        for arguments in ([], ["night.yaml"], ["-o", "a.ocio"], ["night.yaml", "-o", "a.ocio", "--size", "130"]):
+            self.assertFails("config", *arguments, code=2)
+
+    def test_a_file_in_the_place_of_the_folder(self):
+        (self.folder / "luts").write_text("mine")
+        self.assertFails("config", "night.yaml", "-o", "out.ocio", says=["luts", "LUT folder"])
+
+    def test_name_description_and_family(self):
+        self.assertWorks(
+            "config", "night.yaml", "-o", "out.ocio", "--size", "5", "--name", "show", "--description", "For the show",
+            "--family", "Show", "--lut-folder", "show_luts",
+        )
+        text = (self.folder / "out.ocio").read_text()
+        for part in ("name: show\n", "For the show", "family: Show/Light/D65", "search_path: show_luts\n"):
+            self.assertIn(part, text)
+        self.assertTrue((self.folder / "show_luts" / "night.ctf").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
