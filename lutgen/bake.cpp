@@ -21,6 +21,7 @@ struct BakeArguments {
   std::string format;
   std::string shaper;
   int size = 0;
+  bool sampled = false;
   Overrides overrides;
 };
 
@@ -31,6 +32,7 @@ void bake(const BakeArguments& arguments) {
   if (!arguments.shaper.empty()) {
     options.shaper = ocio::shaperFromName(arguments.shaper);
   }
+  options.fitted = !arguments.sampled;
   options.config = ocio::configFromEnvironment();
   const auto library = spectral::DataLibrary::openDefault();
   const sip::Recipe recipe = recipeWith(arguments.recipe, arguments.overrides, library);
@@ -54,6 +56,7 @@ void addBake(CLI::App& application) {
       ->check(CLI::IsMember(formats, CLI::ignore_case));
   command->add_option("--size", arguments->size, "Nodes along a side; 33 for .cube, 65 for others by default")
       ->check(CLI::Range(ocio::kSmallestTable, ocio::kLargestTable));
+  command->add_flag("--sampled", arguments->sampled, "Nodes are the transform's values, not solved for least error");
   command->add_option("--shaper", arguments->shaper, "Log curve of .cube and .clf; ACEScct by default");
   addOverrides(*command, arguments->overrides);
   command->callback([arguments] { bake(*arguments); });

@@ -150,7 +150,11 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, Lut
   certificate.probes = cubeProbes(encoding);
   OCIO::ConstTransformRcPtr onSignal;
   if (representation == Representation::LogCube) {
-    onSignal = logCube(prepared.transform, signal, certificate.size);
+    onSignal = logCube(prepared.transform, signal,
+                       {.size = certificate.size,
+                        .fitted = options.fitted,
+                        .lowestStop = static_cast<double>(certificate.probes.lowestStop),
+                        .highestStop = static_cast<double>(certificate.probes.highestStop)});
   } else if (representation != Representation::Identity) {
     onSignal =
         inOrder({signal.toEngine, engineOperators(representation, prepared.spec, prepared.transform, certificate.size),

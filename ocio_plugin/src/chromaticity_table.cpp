@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "chromaticity_table.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "metamer/spectral/colorimetry.h"
 #include "parallel.h"
+#include "perceptual_form.h"
 
 namespace metamer::ocio {
 namespace {
@@ -16,8 +16,8 @@ namespace {
 constexpr double kLuminance = 0.18;
 /// Weight of a sample beyond what reflectances can make.
 constexpr double kOutsideWeight = 1e-3;
-/// Least eigenvalue of the metric scaled to a unit diagonal.
-constexpr double kLeastEigenvalue = 0.02;
+/// Deviation of coordinates that the metric is taken by.
+constexpr double kStep = 1e-3;
 /// Probes along a side for the first placing of the ticks.
 constexpr int kProbesPerSide = 129;
 /// Times that they are placed again, by probes that follow them.
@@ -52,30 +52,11 @@ Eigen::Matrix3d perceptualMetric(const ChromaticityPlane& plane, const Eigen::Ma
                                  const Eigen::Vector3d& white, const Eigen::Vector3d& out) {
   const Eigen::Vector3d centre = plane.output.coordinates(out);
   const Eigen::Vector3d lab = spectral::lab(xyzFromRgb * out, white);
-  constexpr double kStep = 1e-3;
-  const auto squared = [&](const Eigen::Vector3d& deviation) {
-    const Eigen::Vector3d moved = plane.output.colour(centre + deviation);
-    const double difference = spectral::deltaE2000(lab, spectral::lab(xyzFromRgb * moved, white)) / kStep;
-    return difference * difference;
-  };
-  Eigen::Matrix3d metric;
-  const Eigen::Matrix3d step = kStep * Eigen::Matrix3d::Identity();
-  for (int i = 0; i < 3; ++i) {
-    metric(i, i) = squared(step.col(i));
-  }
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < i; ++j) {
-      metric(i, j) = metric(j, i) = 0.25 * (squared(step.col(i) + step.col(j)) - squared(step.col(i) - step.col(j)));
-    }
-  }
-  // The difference is not quite a quadratic form: what is left of the mixed terms' inconsistency must not make the
-  // least squares run away along a direction that seems to cost nothing.
-  const Eigen::Vector3d scale = metric.diagonal().cwiseSqrt().cwiseMax(1e-12);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scaled(scale.cwiseInverse().asDiagonal() * metric *
-                                                              scale.cwiseInverse().asDiagonal());
-  const Eigen::Matrix3d& axes = scaled.eigenvectors();
-  return scale.asDiagonal() * axes * scaled.eigenvalues().cwiseMax(kLeastEigenvalue).asDiagonal() * axes.transpose() *
-         scale.asDiagonal();
+  return perceptualForm(
+      [&](const Eigen::Vector3d& deviation) {
+        return spectral::deltaE2000(lab, spectral::lab(xyzFromRgb * plane.output.colour(centre + deviation), white));
+      },
+      kStep);
 }
 
 /// The transform at a point; where it has no amount there, at a point nearer to white.

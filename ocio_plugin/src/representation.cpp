@@ -2,25 +2,15 @@
 #include "metamer/ocio/representation.h"
 
 #include <cassert>
-#include <optional>
-#include <span>
 #include <vector>
 
+#include "cube_fit.h"
+#include "cube_samples.h"
 #include "matrix_operator.h"
 #include "metamer/ocio/exposure_invariant_chain.h"
-#include "metamer/ocio/pixel_processor.h"
-#include "metamer/sip/homogeneous_map.h"
-#include "parallel.h"
+#include "sampled_cube.h"
 
 namespace metamer::ocio {
-
-namespace {
-
-/// Cubes of at least this size take their nodes from the homogeneous map: its build then costs less than the nodes'
-/// own solves, and its error is far below the lattice's.
-constexpr int kMapFromSize = 40;
-
-}  // namespace
 
 std::string nameOf(Representation representation) {
   switch (representation) {
@@ -36,43 +26,24 @@ std::string nameOf(Representation representation) {
   return {};
 }
 
-OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const Signal& signal, int size) {
+OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const Signal& signal,
+                                  const LogCubeOptions& options) {
+  const int size = options.size;
   assert(size >= kSmallestTable && size <= kLargestTable);
-  const PixelProcessor toEngine(signal.toEngine);
-  const PixelProcessor fromEngine(signal.fromEngine);
-  std::optional<sip::HomogeneousMap> map;
-  if (size >= kMapFromSize) {
-    map = sip::buildHomogeneousMap(transform);
+  std::vector<Eigen::Vector3f> nodes = sampledCube(transform, signal, size);
+  if (options.fitted) {
+    // Half a stop more at either end: what is judged at a stop lies in the middle of what is fitted.
+    fitCube(nodes, size, cubeSamples(transform, signal, size, options.lowestStop - 0.5, options.highestStop + 0.5),
+            CubeJudge(transform, signal));
   }
-  const auto count = static_cast<std::size_t>(size);
-  std::vector<float> nodes(4 * count * count * count);
-  const auto at = [size](int k) { return static_cast<float>(static_cast<double>(k) / (size - 1)); };
-  parallelFor(size, [&](int blue) {
-    const std::span<float> plane(nodes.data() + 4 * count * count * static_cast<std::size_t>(blue), 4 * count * count);
-    float* node = plane.data();
-    for (int green = 0; green < size; ++green) {
-      for (int red = 0; red < size; ++red, node += 4) {
-        node[0] = at(red);
-        node[1] = at(green);
-        node[2] = at(blue);
-        node[3] = 1.0F;
-      }
-    }
-    toEngine.apply(plane);
-    if (map) {
-      map->apply(plane);
-    } else {
-      transform.apply(plane);
-    }
-    fromEngine.apply(plane);
-  });
   auto table = OCIO::Lut3DTransform::Create(static_cast<unsigned long>(size));
   table->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
-  const float* node = nodes.data();
+  const Eigen::Vector3f* node = nodes.data();
+  const auto count = static_cast<unsigned long>(size);
   for (unsigned long blue = 0; blue < count; ++blue) {
     for (unsigned long green = 0; green < count; ++green) {
-      for (unsigned long red = 0; red < count; ++red, node += 4) {
-        table->setValue(red, green, blue, node[0], node[1], node[2]);
+      for (unsigned long red = 0; red < count; ++red, ++node) {
+        table->setValue(red, green, blue, node->x(), node->y(), node->z());
       }
     }
   }

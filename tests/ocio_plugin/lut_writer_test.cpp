@@ -39,7 +39,7 @@ class LutWriterTest : public testing::TestWithParam<std::size_t> {
     const Signal signal = {shaperTransform(spectral::LogEncoding::AcesCct, OCIO::TRANSFORM_DIR_INVERSE),
                            shaperTransform(spectral::LogEncoding::AcesCct, OCIO::TRANSFORM_DIR_FORWARD)};
     const auto spec = sip::specOf("D65", "A");
-    result->appendTransform(logCube(sip::SpectralTransform(spec), signal, kSize));
+    result->appendTransform(logCube(sip::SpectralTransform(spec), signal, {.size = kSize, .fitted = false}));
     return result;
   }
 };

@@ -18,6 +18,7 @@ struct BakeOptions {
   /// Empty: Identity where the recipe does nothing, else what the format holds best.
   std::optional<Representation> representation;
   int size = 0;                                 ///< nodes along a side; 0: 65 for a chain, 33 for a cube
+  bool fitted = true;                           ///< tables solved for least error; false: the transform's values
   std::optional<spectral::LogEncoding> shaper;  ///< of cubes of a linear space; empty: ACEScct
   OCIO::ConstConfigRcPtr config;                ///< where spaces that are not built in are looked up; may be null
 };

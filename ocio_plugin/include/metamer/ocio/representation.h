@@ -39,7 +39,19 @@ struct Signal {
   OCIO::ConstTransformRcPtr fromEngine;
 };
 
-/// The table of a LogCube: signal in, signal out, `size` nodes over 0 ... 1 on each axis.
-OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const Signal& signal, int size);
+struct LogCubeOptions {
+  int size = 33;       ///< nodes along a side, kSmallestTable ... kLargestTable
+  bool fitted = true;  ///< nodes solved for least error; false: the transform's own values there
+  /// Exposures it is fitted to: stops round Y = 0.18, as the error protocol counts them.
+  double lowestStop = -7;
+  double highestStop = 7;
+};
+
+/// The table of a LogCube: signal in, signal out, over 0 ... 1 on each axis, to be looked up by tetrahedra.
+///
+/// A fitted table's nodes are no values of the transform: what lies between them is as near to it as their number
+/// allows (docs/representations.md). Its neutral nodes are exact.
+OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const Signal& signal,
+                                  const LogCubeOptions& options = {});
 
 }  // namespace metamer::ocio

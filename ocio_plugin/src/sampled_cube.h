@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "metamer/ocio/representation.h"
+
+namespace metamer::ocio {
+
+/// The transform's own values at the nodes of a table over 0 ... 1: signal, red fastest.
+std::vector<Eigen::Vector3f> sampledCube(const sip::SpectralTransform& transform, const Signal& signal, int size);
+
+}  // namespace metamer::ocio
