@@ -9,5 +9,6 @@ namespace metamer::lutgen {
 void addBake(CLI::App& application);
 void addApply(CLI::App& application);
 void addList(CLI::App& application);
+void addStage(CLI::App& application);
 
 }  // namespace metamer::lutgen

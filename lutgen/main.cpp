@@ -31,6 +31,7 @@ int main(int argumentCount, char** arguments) {
   metamer::lutgen::addBake(application);
   metamer::lutgen::addApply(application);
   metamer::lutgen::addList(application);
+  metamer::lutgen::addStage(application);
   try {
     application.parse(argumentCount, arguments);
     std::cout.flush();
