@@ -51,11 +51,11 @@ void addFixtureLimits(CLI::App& command, FixtureLimits& limits) {
       ->needs("--power");
 }
 
-sip::DriveLimits limitsOf(const FixtureLimits& limits, const Fixture& fixture) {
+sip::DriveLimits limitsOf(const FixtureLimits& limits, std::size_t emitterCount) {
   sip::DriveLimits result;
-  result.upper = spread(limits.largest, fixture.names.size(), "--limits");
+  result.upper = spread(limits.largest, emitterCount, "--limits");
   if (limits.budget > 0) {
-    result.power = spread(limits.power, fixture.names.size(), "--power");
+    result.power = spread(limits.power, emitterCount, "--power");
     result.powerBudget = limits.budget;
   }
   return result;

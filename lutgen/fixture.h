@@ -31,7 +31,7 @@ struct FixtureLimits {
 
 void addFixtureLimits(CLI::App& command, FixtureLimits& limits);
 /// @throws spectral::InputError where they are neither one nor as many as the emitters
-sip::DriveLimits limitsOf(const FixtureLimits& limits, const Fixture& fixture);
+sip::DriveLimits limitsOf(const FixtureLimits& limits, std::size_t emitterCount);
 
 /// XYZ from an observer's response to materials in a light: the observer's own matrix, or least squares over a
 /// training set.

@@ -9,6 +9,8 @@ void addStage(CLI::App& application) {
   stage->require_subcommand(1);
   addStageSolve(*stage);
   addStageMatch(*stage);
+  addStageSelect(*stage);
+  addStageEnvironment(*stage);
 }
 
 }  // namespace metamer::lutgen

@@ -39,17 +39,6 @@ std::vector<int> patchesWith(const std::vector<std::string>& names, const std::s
   return found;
 }
 
-/// The patch of a name, without regard to case; else the only one that begins with it; else -1.
-int patchNamed(const std::vector<std::string>& names, const std::string& name) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (lower(names[i]) == lower(name)) {
-      return static_cast<int>(i);
-    }
-  }
-  const std::vector<int> starting = patchesWith(names, name, true);
-  return starting.size() == 1 ? starting.front() : -1;
-}
-
 void findWhite(const sip::StageDescription& stage, StageCapture& capture) {
   const auto& names = capture.wall.patchNames;
   const std::string wanted = stage.whitePatch.empty() ? "white" : stage.whitePatch;
@@ -159,6 +148,16 @@ void readCharts(const sip::StageDescription& stage, const spectral::DataLibrary&
 }
 
 }  // namespace
+
+int patchNamed(const std::vector<std::string>& names, const std::string& name) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (lower(names[i]) == lower(name)) {
+      return static_cast<int>(i);
+    }
+  }
+  const std::vector<int> starting = patchesWith(names, name, true);
+  return starting.size() == 1 ? starting.front() : -1;
+}
 
 StageCapture readCapture(const sip::StageDescription& stage, const spectral::DataLibrary& library) {
   StageCapture capture;

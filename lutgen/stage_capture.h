@@ -23,6 +23,9 @@ struct StageCapture {
   std::vector<std::string> notes;  ///< what a user should know about the input
 };
 
+/// The patch of a name, without regard to case; else the only one that begins with it; else -1.
+int patchNamed(const std::vector<std::string>& names, const std::string& name);
+
 /// Reads spectra, charts, pictures and the environment.
 /// @throws spectral::InputError
 StageCapture readCapture(const sip::StageDescription& stage, const spectral::DataLibrary& library);

@@ -8,5 +8,7 @@ namespace metamer::lutgen {
 /// Each adds one command of `lutgen stage`.
 void addStageSolve(CLI::App& stage);
 void addStageMatch(CLI::App& stage);
+void addStageSelect(CLI::App& stage);
+void addStageEnvironment(CLI::App& stage);
 
 }  // namespace metamer::lutgen

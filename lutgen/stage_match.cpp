@@ -86,7 +86,7 @@ void match(const MatchOptions& options) {
   const Materials materials = materialsOf(library.reflectances(options.reflectances));
   const sip::ObserverCurves curves = observer.onDomain();
   const spectral::DomainSamples light = target.onDomain();
-  const sip::DriveLimits limits = limitsOf(options.limits, fixture);
+  const sip::DriveLimits limits = limitsOf(options.limits, fixture.names.size());
 
   const sip::EmitterMatch result =
       sip::solveMatch(systemOf(method, options, fixture, light, curves, materials), limits);
