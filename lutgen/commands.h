@@ -11,5 +11,6 @@ void addApply(CLI::App& application);
 void addList(CLI::App& application);
 void addConfig(CLI::App& application);
 void addCompare(CLI::App& application);
+void addStage(CLI::App& application);
 
 }  // namespace metamer::lutgen

@@ -33,6 +33,7 @@ int main(int argumentCount, char** arguments) {
   metamer::lutgen::addList(application);
   metamer::lutgen::addConfig(application);
   metamer::lutgen::addCompare(application);
+  metamer::lutgen::addStage(application);
   try {
     application.parse(argumentCount, arguments);
     std::cout.flush();

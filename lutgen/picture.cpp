@@ -12,11 +12,9 @@
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::lutgen {
-namespace {
 
 using spectral::InputError;
 
-/// Channels R, G, B by name, in whatever order; else the first three.
 std::array<int, 3> colourChannels(const OIIO::ImageSpec& spec, const std::string& file) {
   const std::array<int, 3> named = {spec.channelindex("R"), spec.channelindex("G"), spec.channelindex("B")};
   if (std::all_of(named.begin(), named.end(), [](int channel) { return channel >= 0; })) {
@@ -29,8 +27,6 @@ std::array<int, 3> colourChannels(const OIIO::ImageSpec& spec, const std::string
   }
   return {0, 1, 2};
 }
-
-}  // namespace
 
 Picture::Picture(const std::filesystem::path& file) : m_pixels(file.string()) {
   std::error_code ignored;

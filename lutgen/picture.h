@@ -11,6 +11,10 @@
 
 namespace metamer::lutgen {
 
+/// Channels R, G, B by name, in whatever order; else the first three.
+/// @throws spectral::InputError where there are not three
+std::array<int, 3> colourChannels(const OIIO::ImageSpec& spec, const std::string& file);
+
 /// A picture in memory as float, with its metadata, windows and every channel.
 class Picture {
  public:
@@ -33,6 +37,9 @@ class Picture {
   /// Writes it whole or not at all, as float where the format can.
   /// @throws spectral::InputError
   void write(const std::filesystem::path& file) const;
+
+  const OIIO::ImageBuf& pixels() const { return m_pixels; }
+  const std::array<int, 3>& colours() const { return m_colours; }
 
  private:
   void changeRow(int row, const std::function<void(std::span<float> rgba)>& body);

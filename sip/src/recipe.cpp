@@ -11,7 +11,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/spectral_files.h"
-#include "yaml_tree.h"
+#include "yaml_section.h"
 
 namespace metamer::sip {
 namespace {
@@ -24,118 +24,11 @@ constexpr double kLargestRadius = 1.0;
 constexpr const char* kTrainingSet = "rawtoaces 190";
 constexpr const char* kStandardObserver = "CIE 1931 2";
 
-std::string joined(std::initializer_list<const char*> words) {
-  std::string text;
-  for (const char* word : words) {
-    text += (text.empty() ? "" : ", ") + std::string(word);
-  }
-  return text;
-}
-
-/// A map of the recipe, read key by key.
-class Section {
- public:
-  /// @param path  dotted name of the section for messages; empty at the top
-  Section(const YamlNode& node, std::string where, std::string path, std::initializer_list<const char*> keys)
-      : m_node(node), m_where(std::move(where)), m_path(std::move(path)) {
-    if (node.kind != YamlNode::Kind::Map) {
-      throw error(node, m_path.empty() ? "recipe" : m_path, node.text,
-                  "must be a map of " + joined(keys) + ", such as 'metamer: 1'");
-    }
-    const std::vector<std::string> known(keys.begin(), keys.end());
-    std::set<std::string> seen;
-    for (const auto& [key, value] : node.members) {
-      if (std::find(known.begin(), known.end(), key) == known.end()) {
-        const auto near = spectral::nearNames(key, known, 2);
-        throw error(value, "key", named(key),
-                    "unknown; " + (near.empty() ? std::string() : "did you mean '" + near.front() + "'? ") +
-                        "the keys here are " + joined(keys));
-      }
-      if (!seen.insert(key).second) {
-        throw error(value, "key", named(key), "is given twice; keep one");
-      }
-    }
-  }
-
-  const YamlNode* find(const std::string& key) const {
-    for (const auto& [name, value] : m_node.members) {
-      if (name == key) {
-        return &value;
-      }
-    }
-    return nullptr;
-  }
-
-  const YamlNode& require(const std::string& key, const std::string& remedy) const {
-    const YamlNode* node = find(key);
-    if (node == nullptr) {
-      throw error(m_node, named(key), "", remedy);
-    }
-    return *node;
-  }
-
-  std::string text(const YamlNode& node, const std::string& key) const {
-    if (node.kind == YamlNode::Kind::Sequence || node.kind == YamlNode::Kind::Map) {
-      throw error(node, named(key), node.text, "must be a name, not a " + node.kindName());
-    }
-    if (node.text.empty()) {
-      throw error(node, named(key), "", "is empty; give a name or leave the key out");
-    }
-    return node.text;
-  }
-
-  void read(const std::string& key, std::string& target) const {
-    if (const YamlNode* node = find(key)) {
-      target = text(*node, key);
-    }
-  }
-
-  /// A whole token within low ... high.
-  void read(const std::string& key, double& target, double low, double high) const {
-    const YamlNode* node = find(key);
-    if (node == nullptr) {
-      return;
-    }
-    char range[64];
-    std::snprintf(range, sizeof range, "must be a number from %g to %g", low, high);
-    double value = 0;
-    const char* end = node->text.data() + node->text.size();
-    const auto parsed = std::from_chars(node->text.data(), end, value);
-    if (node->kind != YamlNode::Kind::Scalar || node->quoted || parsed.ec != std::errc() || parsed.ptr != end ||
-        !(value >= low && value <= high)) {
-      throw error(*node, named(key), node->text, range);
-    }
-    target = value;
-  }
-
-  void read(const std::string& key, bool& target) const {
-    if (const YamlNode* node = find(key)) {
-      if (node->kind != YamlNode::Kind::Scalar || (node->text != "true" && node->text != "false")) {
-        throw error(*node, named(key), node->text, "must be true or false");
-      }
-      target = node->text == "true";
-    }
-  }
-
-  std::string named(const std::string& key) const { return m_path.empty() ? key : m_path + "." + key; }
-
-  InputError error(const YamlNode& node, const std::string& field, const std::string& value,
-                   const std::string& remedy) const {
-    return InputError(m_where + ":" + std::to_string(node.line), field, value, remedy);
-  }
-  const std::string& where() const { return m_where; }
-
- private:
-  const YamlNode& m_node;
-  std::string m_where;
-  std::string m_path;
-};
-
-RecipeFilter readFilter(const YamlNode& node, const Section& pipeline, const std::string& path) {
+RecipeFilter readFilter(const YamlNode& node, const YamlSection& pipeline, const std::string& path) {
   if (node.kind == YamlNode::Kind::Scalar) {
     return {pipeline.text(node, "filters"), 1.0};
   }
-  const Section section(node, pipeline.where(), path, {"name", "file", "density"});
+  const YamlSection section(node, pipeline.where(), path, {"name", "file", "density"});
   RecipeFilter filter;
   const YamlNode* name = section.find("name");
   const YamlNode* file = section.find("file");
@@ -151,7 +44,7 @@ RecipeFilter readFilter(const YamlNode& node, const Section& pipeline, const std
   return filter;
 }
 
-RecipePipeline readPipeline(const Section& section) {
+RecipePipeline readPipeline(const YamlSection& section) {
   RecipePipeline pipeline;
   pipeline.illuminant = section.text(
       section.require("illuminant", "is missing; name the light, such as 'illuminant: D65'"), "illuminant");
@@ -168,7 +61,7 @@ RecipePipeline readPipeline(const Section& section) {
   return pipeline;
 }
 
-RecipeScene readScene(const Section& section) {
+RecipeScene readScene(const YamlSection& section) {
   RecipeScene scene;
   std::string kind = "smooth";
   section.read("kind", kind);
@@ -281,8 +174,9 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
     throw InputError(where, "size", std::to_string(text.size()),
                      "is more than a recipe may have (" + std::to_string(kLargestRecipeBytes) + " bytes)");
   }
-  const YamlNode root = parseYaml(std::string(spectral::checkedUtf8(text, where)), where);
-  const Section top(root, where, "", {"metamer", "name", "space", "input", "output", "scene", "cat", "keep_exposure"});
+  const YamlNode root = parseYaml(text, where);
+  const YamlSection top(root, where, "",
+                        {"metamer", "name", "space", "input", "output", "scene", "cat", "keep_exposure"});
   const YamlNode& version = top.require("metamer", "is missing; a recipe starts with 'metamer: 1'");
   if (version.kind != YamlNode::Kind::Scalar || version.quoted || version.text != "1") {
     throw top.error(version, "metamer", version.text,
@@ -294,16 +188,16 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
   top.read("space", recipe.space);
   top.read("keep_exposure", recipe.keepExposure);
 
-  const Section input(top.require("input", "is missing; give the light, such as 'input: {illuminant: D65}'"), where,
-                      "input", {"illuminant", "filters", "observer"});
+  const YamlSection input(top.require("input", "is missing; give the light, such as 'input: {illuminant: D65}'"), where,
+                          "input", {"illuminant", "filters", "observer"});
   recipe.input = readPipeline(input);
-  const Section output(top.require("output", "is missing; give the light, such as 'output: {illuminant: A}'"), where,
-                       "output", {"illuminant", "filters", "observer", "adaptation"});
+  const YamlSection output(top.require("output", "is missing; give the light, such as 'output: {illuminant: A}'"),
+                           where, "output", {"illuminant", "filters", "observer", "adaptation"});
   recipe.output = readPipeline(output);
   output.read("adaptation", recipe.adaptation, 0.0, 1.0);
 
   if (const YamlNode* scene = top.find("scene")) {
-    recipe.scene = readScene(Section(*scene, where, "scene", {"kind", "set", "strength", "radius"}));
+    recipe.scene = readScene(YamlSection(*scene, where, "scene", {"kind", "set", "strength", "radius"}));
   }
   if (const YamlNode* cat = top.find("cat")) {
     const std::string name = top.text(*cat, "cat");

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_files.h"
 
 namespace metamer::sip {
 namespace {
@@ -24,7 +25,7 @@ bool isControl(char c) {
 /// anything after it is read.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(std::string where) : m_where(std::move(where)) {}
+  TreeBuilder(std::string where, std::string document) : m_where(std::move(where)), m_document(std::move(document)) {}
 
   YamlNode root() && { return std::move(m_root); }
 
@@ -32,7 +33,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(mark, "", anchor, YamlNode::Kind::Null); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    throw error(mark, "alias", "", "aliases are not allowed in a recipe; write the value out");
+    throw error(mark, "alias", "", "aliases are not allowed in a " + m_document + "; write the value out");
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
@@ -68,13 +69,13 @@ class TreeBuilder : public YAML::EventHandler {
 
   void check(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (anchor != 0) {
-      throw error(mark, "anchor", "", "anchors are not allowed in a recipe; write the value out");
+      throw error(mark, "anchor", "", "anchors are not allowed in a " + m_document + "; write the value out");
     }
     if (!tag.empty() && tag != "?" && tag != "!") {
-      throw error(mark, "tag", tag, "tags are not allowed in a recipe; leave it out");
+      throw error(mark, "tag", tag, "tags are not allowed in a " + m_document + "; leave it out");
     }
     if (++m_count > kMostYamlNodes) {
-      throw error(mark, "", "", "more than " + std::to_string(kMostYamlNodes) + " values; this is no recipe");
+      throw error(mark, "", "", "more than " + std::to_string(kMostYamlNodes) + " values; this is no " + m_document);
     }
   }
 
@@ -101,13 +102,15 @@ class TreeBuilder : public YAML::EventHandler {
 
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YamlNode::Kind kind) {
     if (m_open.size() >= static_cast<std::size_t>(kDeepestYaml)) {
-      throw error(mark, "", "", "nested deeper than " + std::to_string(kDeepestYaml) + " levels; this is no recipe");
+      throw error(mark, "", "",
+                  "nested deeper than " + std::to_string(kDeepestYaml) + " levels; this is no " + m_document);
     }
     // The parents' children do not move while one of them is open: it is always the last.
     m_open.push_back(&add(mark, tag, anchor, kind));
   }
 
   std::string m_where;
+  std::string m_document;
   YamlNode m_root;
   std::vector<YamlNode*> m_open;
   std::string m_key;
@@ -131,25 +134,27 @@ std::string YamlNode::kindName() const {
   return {};
 }
 
-YamlNode parseYaml(const std::string& text, const std::string& where) {
+YamlNode parseYaml(const std::string& text, const std::string& where, const std::string& document) {
+  const std::string version = document == "recipe" ? "metamer" : "metamer_" + document;
+  const std::string utf8(spectral::checkedUtf8(text, where));
   int line = 1;
-  for (const char c : text) {
+  for (const char c : utf8) {
     line += c == '\n' ? 1 : 0;
     if (isControl(c) && c != '\n' && c != '\r' && c != '\t') {
       throw InputError(where + ":" + std::to_string(line), "text", "", "is not a text file (control characters)");
     }
   }
-  std::istringstream stream(text);
-  TreeBuilder builder(where);
+  std::istringstream stream(utf8);
+  TreeBuilder builder(where, document);
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) {
-      throw InputError(where, "recipe", "", "is empty; a recipe starts with 'metamer: 1'");
+      throw InputError(where, document, "", "is empty; a " + document + " starts with '" + version + ": 1'");
     }
     YamlNode root = std::move(builder).root();
-    TreeBuilder second(where);
+    TreeBuilder second(where, document);
     if (parser.HandleNextDocument(second)) {
-      throw InputError(where, "recipe", "", "holds more than one document; keep one recipe a file");
+      throw InputError(where, document, "", "holds more than one document; keep one " + document + " a file");
     }
     return root;
   } catch (const YAML::Exception& error) {

@@ -29,8 +29,9 @@ struct YamlMember {
 /// Parses one document. Aliases, anchors, tags, a second document, control characters, more than kDeepestYaml levels
 /// and more than kMostYamlNodes nodes are refused: a recipe needs none of them, and with them a small file can be an
 /// endless one.
+/// @param document  what messages call the whole: "recipe", "stage"
 /// @throws spectral::InputError with the line
-YamlNode parseYaml(const std::string& text, const std::string& where);
+YamlNode parseYaml(const std::string& text, const std::string& where, const std::string& document = "recipe");
 
 inline constexpr int kDeepestYaml = 16;
 inline constexpr int kMostYamlNodes = 10000;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "metamer/sip/environment_drive.h"
+#include "metamer/sip/stage_geometry.h"
+
+namespace metamer::lutgen {
+
+/// Lights at positions round the stage's middle, each of which stands for the directions nearest to its own.
+class LightList {
+ public:
+  /// @param file  CSV with the header name,x,y,z (metres, or any unit; the axes of sip::LatLong)
+  /// @throws spectral::InputError
+  LightList(const std::filesystem::path& file, sip::LatLong layout);
+
+  /// Adds rows of the environment, which are averaged over cells of about a third of a degree.
+  void addRows(int first, int count, const Eigen::Matrix3Xf& rgb);
+
+  /// name,x,y,z,solid_angle,R,G,B and the drives that make each light's mean radiance.
+  std::string drivesAsCsv(const sip::EnvironmentDriver& driver, const std::vector<std::string>& emitters) const;
+
+ private:
+  struct Light {
+    std::string name;
+    Eigen::Vector3d position;
+  };
+  sip::LatLong m_layout;
+  sip::LatLong m_cells;
+  int m_side = 1;  ///< pixels along a side of a cell
+  std::vector<Light> m_lights;
+  Eigen::Matrix4Xd m_sums;  ///< radiance times solid angle, and solid angle, a column a cell
+};
+
+}  // namespace metamer::lutgen

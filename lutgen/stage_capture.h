@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "metamer/sip/chart_table.h"
+#include "metamer/sip/rgb_wall.h"
+#include "metamer/sip/stage_file.h"
+#include "metamer/spectral/data_library.h"
+
+namespace metamer::lutgen {
+
+/// A stage file with all that it names read: ready to be solved.
+struct StageCapture {
+  sip::WallCapture wall;
+  Eigen::Matrix3d xyzFromCamera;  ///< for colour differences
+  std::string colourSpace;        ///< what that matrix is: a space's name, or how it was found
+  int whitePatch = -1;            ///< the chart's white; -1: none fit for it
+  std::vector<int> skinPatches;
+  std::vector<sip::ExcludedPatch> excluded;
+  std::vector<std::string> notes;  ///< what a user should know about the input
+};
+
+/// The patch of a name, without regard to case; else the only one that begins with it; else -1.
+int patchNamed(const std::vector<std::string>& names, const std::string& name);
+
+/// Reads spectra, charts, pictures and the environment.
+/// @throws spectral::InputError
+StageCapture readCapture(const sip::StageDescription& stage, const spectral::DataLibrary& library);
+
+}  // namespace metamer::lutgen

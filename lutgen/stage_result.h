@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "metamer/sip/chart_difference.h"
+#include "metamer/sip/rgb_wall.h"
+#include "stage_capture.h"
+#include "stage_json.h"
+
+namespace metamer::lutgen {
+
+/// A solved wall with what a report says of it.
+struct StageResult {
+  std::string name;
+  StageCapture capture;
+  sip::WallSolution solution;
+  /// Gain on the predicted chart before its differences are taken: it makes the white patch as green as the target's,
+  /// since w_avg is known up to a factor (fig. 2.18). Q holds that factor, so there is none after it.
+  double exposure = 1;
+  std::vector<double> differencesBefore;  ///< CIEDE2000 of P (exposed) against T
+  std::vector<double> differencesAfter;   ///< CIEDE2000 of Q P against T
+  sip::DifferenceSummary before, after, skinBefore, skinAfter;
+  std::vector<std::string> notes;  ///< of the input, and what is out of reach and why
+};
+
+/// Reads and solves. @throws spectral::InputError, naming the stage file
+StageResult solveStage(const sip::StageDescription& stage, const spectral::DataLibrary& library);
+
+/// The stage file for programs.
+Json toJson(const StageResult& result);
+
+/// A few lines for a terminal: conditions, differences, the trade-off of N, notes.
+std::string summaryOf(const StageResult& result);
+
+}  // namespace metamer::lutgen

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: Apache-2.0
+"""lutgen stage match against scipy, and what several emitters buy."""
+
+import json
+import unittest
+
+import numpy as np
+from scipy.optimize import nnls
+
+from lutgen import LutgenTest
+from stage_physics import LIGHTS, chart, light, model, spectra, write_spectrum
+
+RGB = ["led:628:14", "led:525:24", "led:460:16"]
+WHITE = "phosphor:450:20:560:120:0.8"
+PC_AMBER = "phosphor:450:20:600:80:0.01"
+CYAN = "led:500:22"
+AMBER = "led:595:12"
+SETS = {"RGB": RGB, "RGBW": [*RGB, WHITE], "RGBW+PC amber": [*RGB, WHITE, PC_AMBER],
+        "all": [*RGB, WHITE, PC_AMBER, CYAN, AMBER]}
+
+
+def systems(emitters, target):
+    """Matrix and target of each method, by the chapter's definitions."""
+    eye = np.stack(list(spectra("observers/cie_1931_2.csv").values())[:3], axis=1)
+    columns = np.stack([model(text) for text in emitters], axis=1)
+    power = light(target)
+    _, reflectances = chart()
+    seen = np.concatenate([(reflectance[:, None] * eye).T for reflectance in reflectances])
+    return {"sim": (columns, power), "mim": (eye.T @ columns, eye.T @ power), "mrm": (seen @ columns, seen @ power)}
+
+
+class MatchTest(LutgenTest):
+    def match(self, *arguments):
+        self.assertWorks("stage", "match", "--json", self.folder / "match.json", *arguments)
+        return json.loads((self.folder / "match.json").read_text())
+
+    def test_against_scipy(self):
+        worst = 0.0
+        for target in LIGHTS:
+            emitters = SETS["RGBW+PC amber"]
+            for method, (matrix, power) in systems(emitters, target).items():
+                ours = self.match("--target", target, "--emitters", *emitters, "--method", method)
+                drives = np.array(ours["drives"])
+                reference, norm = nnls(matrix, power)
+                self.assertTrue((drives >= 0).all())
+                residual = np.linalg.norm(matrix @ drives - power)
+                self.assertLessEqual(residual, norm * (1 + 1e-9) + 1e-12 * np.linalg.norm(power))
+                self.assertAlmostEqual(ours["residual"], residual / np.linalg.norm(power), delta=1e-12)
+                if method == "mim":
+                    self.assertLessEqual(drives @ drives, reference @ reference * (1 + 1e-12), "not the shortest")
+                else:
+                    worst = max(worst, np.abs(drives - reference).max() / reference.max())
+        print(f"drives within {worst:.1e} of scipy's")
+        self.assertLessEqual(worst, 1e-9)
+
+    def test_files(self):
+        """Emitters from CSV files, one of two columns; drives in the files' own units."""
+        names = [self.folder / f"{i}.csv" for i in range(3)]
+        for file, text, scale in zip(names, RGB, (1.0, 2.0, 0.5)):
+            write_spectrum(file, scale * model(text))
+        modelled = self.match("--target", "D65", "--emitters", *RGB, "--method", "mrm")
+        ours = self.match("--target", "D65", "--emitters", *names, "--method", "mrm")
+        np.testing.assert_allclose(ours["drives"], np.array(modelled["drives"]) / [1.0, 2.0, 0.5], rtol=1e-9)
+        self.assertEqual(modelled["models"], [True] * 3)
+        self.assertEqual(ours["models"], [False] * 3)
+
+    def test_more_emitters(self):
+        """MRM's error falls with every emitter added, and MRM is never worse than MIM on the chart."""
+        for target in ("A", "D65", "FL2"):
+            residuals = []
+            for name, emitters in SETS.items():
+                found = {method: self.match("--target", target, "--emitters", *emitters, "--method", method)
+                         for method in ("sim", "mim", "mrm")}
+                matrix, power = systems(emitters, target)["mrm"]
+                errors = {method: np.linalg.norm(matrix @ np.array(one["drives"]) - power) / np.linalg.norm(power)
+                          for method, one in found.items()}
+                print(f"{target:4s} {name:14s} " + "  ".join(
+                    f"{method} {one['dE']['mean']:5.2f} ({errors[method]:.4f})" for method, one in found.items()))
+                self.assertLessEqual(errors["mrm"], errors["mim"] * (1 + 1e-12))
+                self.assertLessEqual(errors["mrm"], errors["sim"] * (1 + 1e-12))
+                residuals.append(found["mrm"]["residual"])
+            for fewer, more in zip(residuals, residuals[1:]):
+                self.assertLessEqual(more, fewer * (1 + 1e-9))
+            self.assertLess(residuals[1], 0.5 * residuals[0], "white")
+            self.assertLess(residuals[3], 0.9 * residuals[1], "all")
+            if target != "D65":  # white alone does for daylight, as in fig. 2.14
+                self.assertLess(residuals[2], 0.9 * residuals[1], "PC amber")
+
+    def test_limits(self):
+        free = self.match("--target", "A", "--emitters", *SETS["RGBW"], "--method", "mrm")
+        bound = 0.5 * max(free["drives"])
+        limited = self.match("--target", "A", "--emitters", *SETS["RGBW"], "--method", "mrm", "--limits", bound)
+        self.assertLessEqual(max(limited["drives"]), bound)
+        self.assertGreater(limited["residual"], free["residual"])
+        budget = 0.5 * sum(free["drives"])
+        frugal = self.match("--target", "A", "--emitters", *SETS["RGBW"], "--method", "mrm", "--power", 1,
+                            "--power-budget", budget)
+        self.assertAlmostEqual(sum(frugal["drives"]), budget, delta=1e-9 * budget)
+
+    def test_dead_and_equal_emitters(self):
+        write_spectrum(self.folder / "dead.csv", np.zeros(401))
+        ours = self.match("--target", "A", "--emitters", *RGB, self.folder / "dead.csv", RGB[0], "--method", "mrm")
+        self.assertEqual(ours["drives"][3], 0)
+        self.assertTrue(any("gives no light" in note for note in ours["notes"]))
+        self.assertAlmostEqual(ours["drives"][0], ours["drives"][4], delta=1e-9 * ours["drives"][0])
+        self.assertIsNone(ours["condition"])
+
+    def test_out_of_reach(self):
+        ours = self.match("--target", "HP1", "--emitters", "led:525:20", "led:460:20", "--method", "mim")
+        self.assertGreater(ours["residual"], 0.01)
+        self.assertTrue(any("out of the emitters' reach" in note for note in ours["notes"]))
+
+    def test_bad_input(self):
+        base = ["stage", "match", "--json", "m.json", "--method", "mrm"]
+        self.assertFails(*base, "--target", "D66", "--emitters", *RGB, says=["D66", "D65"])
+        self.assertFails(*base, "--target", "D65", "--emitters", "led:620", says=["led:620", "led:PEAK:WIDTH"])
+        self.assertFails(*base, "--target", "D65", "--emitters", "absent.csv", says=["absent.csv"])
+        self.assertFails(*base, "--target", "D65", "--emitters", *RGB, "--limits", 1, 2, says=["--limits", "one an emitter"])
+        write_spectrum(self.folder / "dead.csv", np.zeros(401))
+        self.assertFails(*base, "--target", "D65", "--emitters", "dead.csv", says=["no light"])
+        self.assertFails("stage", "match", "--target", "D65", "--emitters", *RGB, "--method", "best", "--json", "m.json",
+                         code=2, says=["--method"])
+
+
+if __name__ == "__main__":
+    unittest.main()
