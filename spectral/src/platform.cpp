@@ -9,6 +9,9 @@
 #elif defined(__APPLE__)
 #include <mach-o/dyld.h>
 #endif
+#if !defined(_WIN32)
+#include <dlfcn.h>
+#endif
 
 namespace metamer::spectral {
 
@@ -29,6 +32,26 @@ std::filesystem::path programFolder() {
 #else
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+#endif
+}
+
+std::filesystem::path libraryFolder(const void* address) {
+#if defined(_WIN32)
+  HMODULE module = nullptr;
+  if (GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT,
+                         static_cast<LPCWSTR>(address), &module) == 0) {
+    return {};
+  }
+  std::vector<wchar_t> buffer(32768);
+  const DWORD length = GetModuleFileNameW(module, buffer.data(), static_cast<DWORD>(buffer.size()));
+  return std::filesystem::path(buffer.data(), buffer.data() + length).parent_path();
+#else
+  Dl_info found{};
+  if (dladdr(address, &found) == 0 || found.dli_fname == nullptr) {
+    return {};
+  }
+  std::error_code error;
+  return std::filesystem::absolute(found.dli_fname, error).parent_path();
 #endif
 }
 

@@ -9,4 +9,8 @@ namespace metamer::spectral {
 /// Folder of the running program. Empty where the system does not tell.
 std::filesystem::path programFolder();
 
+/// Folder of the program or shared library that holds the object or function at this address; absolute. Empty where
+/// the system does not tell.
+std::filesystem::path libraryFolder(const void* address);
+
 }  // namespace metamer::spectral
