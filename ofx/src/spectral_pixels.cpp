@@ -2,6 +2,7 @@
 #include "spectral_pixels.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <utility>
 
@@ -19,11 +20,14 @@ const sip::HomogeneousMap& SpectralEngine::map() const {
 
 namespace {
 
+/// Encoded pixels are worked on in parts, beside a copy of the part: what is not finite is put back.
+constexpr std::size_t kPartFloats = 2048;
+
 class SpectralPixels final : public PixelTransform {
  public:
   SpectralPixels(std::shared_ptr<const SpectralEngine> engine, std::optional<spectral::LogEncoding> encoding,
-                 Quality quality)
-      : m_engine(std::move(engine)), m_encoding(encoding), m_quality(quality) {}
+                 std::shared_ptr<const SignalTable> table, Quality quality)
+      : m_engine(std::move(engine)), m_encoding(encoding), m_table(std::move(table)), m_quality(quality) {}
 
   void prepare() const override {
     if (m_quality == Quality::Map) {
@@ -36,19 +40,33 @@ class SpectralPixels final : public PixelTransform {
       applyLinear(source, destination);
       return;
     }
-    // Pixels may be in place: what is not finite is put back from a copy.
-    const std::vector<float> signal(source.begin(), source.end());
-    std::copy(source.begin(), source.end(), destination.begin());
-    decodePixels(*m_encoding, destination);
-    applyLinear(destination, destination);
-    encodePixels(*m_encoding, destination);
-    restoreNonFinite(signal, destination);
+    for (std::size_t begin = 0; begin < source.size(); begin += kPartFloats) {
+      const std::size_t count = std::min(kPartFloats, source.size() - begin);
+      applyEncoded(source.subspan(begin, count), destination.subspan(begin, count));
+    }
   }
 
   bool isIdentity() const override { return m_engine->exact().isIdentity(); }
   bool isHomogeneous() const override { return !m_encoding; }
 
  private:
+  void applyEncoded(std::span<const float> source, std::span<float> destination) const {
+    std::array<float, kPartFloats> memory;
+    const std::span<float> part(memory.data(), source.size());
+    std::copy(source.begin(), source.end(), part.begin());
+    if (m_table != nullptr && m_quality == Quality::Map) {
+      m_table->decode(part);
+      applyLinear(part, part);
+      m_table->encode(part);
+    } else {
+      decodePixels(*m_encoding, part);
+      applyLinear(part, part);
+      encodePixels(*m_encoding, part);
+    }
+    restoreNonFinite(source, part);
+    std::copy(part.begin(), part.end(), destination.begin());
+  }
+
   void applyLinear(std::span<const float> source, std::span<float> destination) const {
     if (const sip::HomogeneousMap* map = m_map) {
       map->apply(source, destination);
@@ -62,6 +80,7 @@ class SpectralPixels final : public PixelTransform {
 
   std::shared_ptr<const SpectralEngine> m_engine;
   std::optional<spectral::LogEncoding> m_encoding;
+  std::shared_ptr<const SignalTable> m_table;
   Quality m_quality;
   mutable std::atomic<const sip::HomogeneousMap*> m_map = nullptr;  // of m_engine
 };
@@ -69,8 +88,9 @@ class SpectralPixels final : public PixelTransform {
 }  // namespace
 
 std::unique_ptr<PixelTransform> makeSpectralPixels(std::shared_ptr<const SpectralEngine> engine,
-                                                   std::optional<spectral::LogEncoding> encoding, Quality quality) {
-  return std::make_unique<SpectralPixels>(std::move(engine), encoding, quality);
+                                                   std::optional<spectral::LogEncoding> encoding,
+                                                   std::shared_ptr<const SignalTable> table, Quality quality) {
+  return std::make_unique<SpectralPixels>(std::move(engine), encoding, std::move(table), quality);
 }
 
 }  // namespace metamer::ofx

@@ -9,6 +9,7 @@
 #include "metamer/sip/spectral_transform.h"
 #include "metamer/spectral/log_encoding.h"
 #include "pixel_transform.h"
+#include "signal_table.h"
 
 namespace metamer::ofx {
 
@@ -30,7 +31,10 @@ class SpectralEngine {
 enum class Quality { Map, Exact };
 
 /// An engine on the pixels of a colour space.
+/// @param encoding  of the pixels; none: they are linear
+/// @param table     of that encoding, for Quality::Map; may be null otherwise
 std::unique_ptr<PixelTransform> makeSpectralPixels(std::shared_ptr<const SpectralEngine> engine,
-                                                   std::optional<spectral::LogEncoding> encoding, Quality quality);
+                                                   std::optional<spectral::LogEncoding> encoding,
+                                                   std::shared_ptr<const SignalTable> table, Quality quality);
 
 }  // namespace metamer::ofx

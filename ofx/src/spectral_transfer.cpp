@@ -16,6 +16,7 @@ using spectral::InputError;
 
 /// Engines kept beyond those in use: enough to go back and forth between settings, and to scrub an animated light.
 constexpr std::size_t kKeptEngines = 24;
+constexpr std::size_t kKeptTables = 16;
 
 std::string numberText(double value) {
   char digits[32];
@@ -141,7 +142,7 @@ class SpectralTransfer final : public Effect {
           std::move(files)};
     });
     const Quality quality = values.menu("quality", time) == kExactQuality ? Quality::Exact : Quality::Map;
-    return makeSpectralPixels(engine, space.encoding, quality);
+    return makeSpectralPixels(engine, space.encoding, tableOf(space, quality), quality);
   }
 
   std::string wantedSpace(const ParameterValues& values) const override { return values.menu("space", 0); }
@@ -171,7 +172,17 @@ class SpectralTransfer final : public Effect {
   }
 
  private:
+  std::shared_ptr<const SignalTable> tableOf(const spectral::ColourSpace& space, Quality quality) const {
+    if (!space.encoding || quality != Quality::Map) {
+      return nullptr;
+    }
+    return m_tables.get(spectral::nameOf(*space.encoding), [&] {
+      return SharedCache<SignalTable>::Built{std::make_shared<const SignalTable>(*space.encoding), {}};
+    });
+  }
+
   const Catalogue& m_catalogue;
+  mutable SharedCache<SignalTable> m_tables{kKeptTables};
   mutable SharedCache<SpectralEngine> m_engines{kKeptEngines};
 };
 
