@@ -24,6 +24,7 @@ SECTIONS = {
     "stability": ("Numerical stability", "accuracy"),
     "hard_cases": ("Hard cases", "accuracy"),
     "growth": ("How cost grows", "performance"),
+    "ofx": ("The OFX plug-in beside OpenColorIO", "performance"),
 }
 PAGES = {
     "accuracy": ("Accuracy", "What each representation costs and how wrong it is, by the [error protocol](error_protocol.md)."),

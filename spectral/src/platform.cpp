@@ -8,6 +8,7 @@
 #include <io.h>
 #include <windows.h>
 #else
+#include <dlfcn.h>
 #include <unistd.h>
 #if defined(__APPLE__)
 #include <mach-o/dyld.h>
@@ -41,6 +42,26 @@ bool errorStreamIsTerminal() {
   return _isatty(2) != 0;
 #else
   return isatty(STDERR_FILENO) != 0;
+#endif
+}
+
+std::filesystem::path libraryFolder(const void* address) {
+#if defined(_WIN32)
+  HMODULE module = nullptr;
+  if (GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT,
+                         static_cast<LPCWSTR>(address), &module) == 0) {
+    return {};
+  }
+  std::vector<wchar_t> buffer(32768);
+  const DWORD length = GetModuleFileNameW(module, buffer.data(), static_cast<DWORD>(buffer.size()));
+  return std::filesystem::path(buffer.data(), buffer.data() + length).parent_path();
+#else
+  Dl_info found{};
+  if (dladdr(address, &found) == 0 || found.dli_fname == nullptr) {
+    return {};
+  }
+  std::error_code error;
+  return std::filesystem::absolute(found.dli_fname, error).parent_path();
 #endif
 }
 

@@ -12,4 +12,8 @@ std::filesystem::path programFolder();
 /// Whether what is written to stderr is read by a person as it comes.
 bool errorStreamIsTerminal();
 
+/// Folder of the program or shared library that holds the object or function at this address; absolute. Empty where
+/// the system does not tell.
+std::filesystem::path libraryFolder(const void* address);
+
 }  // namespace metamer::spectral

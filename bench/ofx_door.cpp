@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A C door to the OFX plug-in in the bare test host: one Python process can time it beside its peers.
+#include <memory>
+#include <string>
+
+#include "bare_host.h"
+
+namespace {
+
+struct Session {
+  explicit Session(int threads) : host(bare_host::builtLibrary(), {.threads = threads}), effect(host.create(0)) {}
+  bare_host::Host host;
+  std::unique_ptr<bare_host::Instance> effect;
+  OfxRectI bounds{};
+};
+
+bare_host::Instance& effectOf(void* session) {
+  return *static_cast<Session*>(session)->effect;
+}
+
+}  // namespace
+
+/// Spectral Transfer in a host whose multi-thread suite runs this many threads. Free with ofxClose.
+extern "C" void* ofxOpen(int threads) {
+  return new Session(threads);
+}
+
+extern "C" void ofxClose(void* session) {
+  delete static_cast<Session*>(session);
+}
+
+/// Float RGBA pictures of the same size, row after row.
+extern "C" void ofxConnect(void* session, void* source, void* destination, int width, int height) {
+  OfxRectI& bounds = static_cast<Session*>(session)->bounds;
+  bounds = {0, 0, width, height};
+  bare_host::Image image;
+  image.bounds = bounds;
+  image.rowBytes = 16 * width;
+  image.data = source;
+  effectOf(session).connect("Source", image);
+  image.data = destination;
+  effectOf(session).connect("Output", image);
+}
+
+/// Sets a parameter as a user does: a menu by its option's name.
+extern "C" void ofxSetText(void* session, const char* parameter, const char* value) {
+  effectOf(session).set(parameter, std::string(value));
+}
+
+extern "C" void ofxSetNumber(void* session, const char* parameter, double value) {
+  effectOf(session).set(parameter, value);
+}
+
+/// The whole picture at a time; the host's status.
+extern "C" int ofxRender(void* session, double time) {
+  return effectOf(session).render(static_cast<Session*>(session)->bounds, time);
+}

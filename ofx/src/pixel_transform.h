@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+namespace metamer::ofx {
+
+/// What an effect does to a pixel, ready to run. Immutable once prepared; shared between instances, frames, threads.
+class PixelTransform {
+ public:
+  virtual ~PixelTransform() = default;
+
+  /// Builds what apply() needs, where that takes time. Called before apply(), from any thread, any number of times.
+  virtual void prepare() const {}
+
+  /// Float RGBA, from `source` to `destination`, equal in length; the two are the same memory or do not overlap. Alpha
+  /// is copied. A pixel with a colour component that is not finite is copied. The result of a pixel depends on nothing
+  /// but the pixel.
+  virtual void apply(std::span<const float> source, std::span<float> destination) const = 0;
+
+  /// Nothing would change: hosts may skip the effect.
+  virtual bool isIdentity() const = 0;
+
+  /// Whether T(k c) = k T(c) for k > 0: premultiplied pixels may then be given as they are.
+  virtual bool isHomogeneous() const = 0;
+};
+
+}  // namespace metamer::ofx

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Menus and their memories, files, messages, and what is built when.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "frame.h"
+#include "scratch_folder.h"
+
+namespace bare_host {
+namespace {
+
+constexpr OfxRectI kBounds = {0, 0, 20, 10};
+
+class OfxParameters : public ::testing::Test {
+ protected:
+  Host m_host{builtLibrary()};
+  ScratchFolder m_folder;
+  Frame m_source{{.bounds = kBounds}};
+  Frame m_output{{.bounds = kBounds}};
+
+  std::string write(const std::string& name, const std::string& text) {
+    std::ofstream(m_folder.path() / name) << text;
+    return (m_folder.path() / name).string();
+  }
+
+  Frame::Rgba render(Instance& effect, double time = 0) {
+    m_source.fill(testPixel);
+    m_output.fill([](int, int) { return Frame::Rgba{}; });
+    effect.connect("Source", m_source.image());
+    effect.connect("Output", m_output.image());
+    EXPECT_EQ(effect.render(kBounds, time), kOfxStatOK);
+    EXPECT_EQ(effect.effect().imagesOut, 0);
+    return m_output.at(3, 3);
+  }
+
+  /// The picture passes through, and the message says all of `says`.
+  void expectPassesThrough(Instance& effect, const std::vector<std::string>& says) {
+    const Frame::Rgba result = render(effect);
+    EXPECT_EQ(result, m_source.at(3, 3));
+    for (const std::string& text : says) {
+      EXPECT_NE(effect.message().find(text), std::string::npos) << effect.message();
+    }
+    EXPECT_EQ(effect.message().find('\n'), std::string::npos);
+    EXPECT_EQ(effect.identity(kBounds), "");
+  }
+};
+
+TEST_F(OfxParameters, MenusAreRememberedByName) {
+  const auto effect = m_host.create(0);
+  EXPECT_EQ(std::get<std::string>(effect->get("outputIlluminantName")), "D65");
+  effect->set("outputIlluminant", "HP1");
+  EXPECT_EQ(std::get<std::string>(effect->get("outputIlluminantName")), "HP1");
+  const auto descriptor = m_host.describe(0, kOfxImageEffectContextFilter);
+  EXPECT_EQ(descriptor->parameters.at("outputIlluminantName")->properties.integer(kOfxParamPropSecret), 1);
+  m_host.act(0, kOfxActionUnload, nullptr, nullptr, nullptr);
+}
+
+TEST_F(OfxParameters, AProjectFromAnotherReleaseKeepsItsNames) {
+  // The position is another release's; the name counts.
+  const auto effect = m_host.create(0, {{"outputIlluminant", 5}, {"outputIlluminantName", std::string("HP1")}});
+  EXPECT_EQ(effect->menuOption("outputIlluminant"), "HP1");
+  const auto reference = m_host.create(0, {{"outputIlluminant", "HP1"}});
+  EXPECT_EQ(render(*effect), render(*reference));
+  effect->set("outputIlluminantName", std::string("A"));
+  EXPECT_EQ(effect->menuOption("outputIlluminant"), "A");
+}
+
+TEST_F(OfxParameters, ANameThatIsGoneIsToldWithNearOnes) {
+  const auto effect = m_host.create(0, {{"outputIlluminant", 3}, {"outputIlluminantName", std::string("FL111")}});
+  expectPassesThrough(*effect, {"output", "illuminant", "FL111", "near names", "FL11"});
+  effect->set("outputIlluminant", "FL11");
+  EXPECT_NE(render(*effect), m_source.at(3, 3));
+  EXPECT_EQ(effect->message(), "");
+}
+
+TEST_F(OfxParameters, AMissingRecipePassesThePictureThroughUntilItIsThere) {
+  const auto effect = m_host.create(0);
+  const std::string file = (m_folder.path() / "100 %s day.yaml").string();
+  effect->set("recipeFile", file);
+  expectPassesThrough(*effect, {file});
+  const int shown = effect->effect().messagesShown;
+  render(*effect);
+  EXPECT_EQ(effect->effect().messagesShown, shown) << "the same message is not shown anew";
+  write("100 %s day.yaml", "metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: A}\n");
+  const auto warm = render(*effect);
+  EXPECT_NE(warm, m_source.at(3, 3));
+  EXPECT_EQ(effect->message(), "");
+  write("100 %s day.yaml", "metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: HP1}\n");
+  EXPECT_NE(render(*effect), warm) << "an edited recipe is read anew";
+  write("100 %s day.yaml", "metamer: 1\ninput: {illuminant: D65}\noutput: {illumiant: HP1}\n");
+  expectPassesThrough(*effect, {":3", "illumiant"});
+}
+
+TEST_F(OfxParameters, SpectraFromFilesAreFollowed) {
+  const std::string light = write("lamp", "nm,power\n380,1\n580,1\n780,3\n");
+  const auto effect = m_host.create(0, {{"outputIlluminant", "From file"}});
+  expectPassesThrough(*effect, {"outputIlluminantFile", "no file is chosen"});
+  effect->set("outputIlluminantFile", std::string(m_folder.path() / "lamp.csv"));
+  expectPassesThrough(*effect, {"lamp.csv"});
+  write("lamp.csv", "nm,power\n380,1\n580,1\n780,3\n");
+  const auto first = render(*effect);
+  EXPECT_NE(first, m_source.at(3, 3));
+  EXPECT_EQ(effect->message(), "");
+  write("lamp.csv", "nm,power\n380,3\n580,1\n780,1\n# longer\n");
+  EXPECT_NE(render(*effect), first);
+  write("lamp.csv", "nm,power\n380,-3\n580,1\n");
+  expectPassesThrough(*effect, {"lamp.csv", "-3"});
+}
+
+TEST_F(OfxParameters, OutOfRangeTemperaturesAndDarkFiltersAreTold) {
+  const auto effect = m_host.create(0, {{"outputIlluminant", "CIE daylight"}, {"outputTemperature", 3000.0}});
+  expectPassesThrough(*effect, {"3000", "4000"});
+  effect->set("outputIlluminant", "Blackbody");
+  EXPECT_NE(render(*effect), m_source.at(3, 3));
+  const std::string black = write("black.csv", "nm,t\n400,0\n700,0\n");
+  effect->set("outputFilter", "From file");
+  effect->set("outputFilterFile", black);
+  expectPassesThrough(*effect, {"filters stop all the light"});
+}
+
+TEST_F(OfxParameters, EveryMenuEntryOfEveryMenuWorks) {
+  const auto effect = m_host.create(0, {{"quality", "Exact"}, {"outputIlluminant", "A"}});
+  for (const char* menu : {"outputIlluminant", "outputFilter", "inputObserver", "sceneSet", "space", "cat"}) {
+    const auto options = effect->effect().parameters.at(menu)->properties.texts(kOfxParamPropChoiceOption);
+    const std::string before = effect->menuOption(menu);
+    if (menu == std::string("sceneSet")) {
+      effect->set("scene", "Data set");
+    }
+    for (const std::string& option : options) {
+      if (option != "From file" && option != "CIE daylight") {
+        effect->set(menu, option);
+        render(*effect);
+        EXPECT_EQ(effect->message(), "") << menu << " " << option;
+      }
+    }
+    effect->set(menu, before);
+  }
+}
+
+TEST_F(OfxParameters, WhatHasNoSayIsGreyedOut) {
+  const auto effect = m_host.create(0);
+  const auto isEnabled = [&](const char* name) {
+    return effect->effect().parameters.at(name)->properties.integer(kOfxParamPropEnabled) != 0;
+  };
+  EXPECT_FALSE(isEnabled("outputTemperature"));
+  EXPECT_FALSE(isEnabled("outputIlluminantFile"));
+  EXPECT_FALSE(isEnabled("priorStrength"));
+  effect->set("outputIlluminant", "Blackbody");
+  EXPECT_TRUE(isEnabled("outputTemperature"));
+  effect->set("scene", "Prior");
+  EXPECT_TRUE(isEnabled("priorStrength"));
+  EXPECT_TRUE(isEnabled("sceneSet"));
+  effect->set("recipeFile", std::string("day.yaml"));
+  EXPECT_FALSE(isEnabled("outputTemperature"));
+  EXPECT_FALSE(isEnabled("space"));
+  EXPECT_TRUE(isEnabled("mix"));
+  EXPECT_TRUE(isEnabled("quality"));
+}
+
+TEST_F(OfxParameters, NothingIsBuiltTwice) {
+  using Clock = std::chrono::steady_clock;
+  const auto seconds = [&](Instance& effect) {
+    const auto start = Clock::now();
+    render(effect);
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  const auto effect = m_host.create(0, {{"outputIlluminant", "FL2"}});
+  const double first = seconds(*effect);
+  double again = seconds(*effect);
+  // Mix has no part in the engine; neither has another instance, nor the light that is set and taken back.
+  effect->set("mix", 0.5);
+  again = std::max(again, seconds(*effect));
+  effect->set("outputIlluminant", "D65");
+  render(*effect);
+  effect->set("outputIlluminant", "FL2");
+  again = std::max(again, seconds(*effect));
+  const auto other = m_host.create(0, {{"outputIlluminant", "FL2"}});
+  again = std::max(again, seconds(*other));
+  EXPECT_LT(again * 5, first) << "a build takes at least five times as long as 200 pixels";
+}
+
+}  // namespace
+}  // namespace bare_host
