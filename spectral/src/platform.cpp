@@ -5,9 +5,13 @@
 #include <vector>
 
 #if defined(_WIN32)
+#include <io.h>
 #include <windows.h>
-#elif defined(__APPLE__)
+#else
+#include <unistd.h>
+#if defined(__APPLE__)
 #include <mach-o/dyld.h>
+#endif
 #endif
 
 namespace metamer::spectral {
@@ -29,6 +33,14 @@ std::filesystem::path programFolder() {
 #else
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+#endif
+}
+
+bool errorStreamIsTerminal() {
+#if defined(_WIN32)
+  return _isatty(2) != 0;
+#else
+  return isatty(STDERR_FILENO) != 0;
 #endif
 }
 

@@ -9,4 +9,7 @@ namespace metamer::spectral {
 /// Folder of the running program. Empty where the system does not tell.
 std::filesystem::path programFolder();
 
+/// Whether what is written to stderr is read by a person as it comes.
+bool errorStreamIsTerminal();
+
 }  // namespace metamer::spectral
