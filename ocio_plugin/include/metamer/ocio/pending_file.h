@@ -1,35 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <string_view>
+#include "metamer/spectral/pending_file.h"
 
 namespace metamer::ocio {
 
-/// A file that appears whole or not at all: written beside its place under another name with the same extension, then
-/// renamed over it. Never committed, it is removed again.
-class PendingFile {
- public:
-  /// @throws spectral::InputError where the folder is not there or cannot be written to
-  explicit PendingFile(std::filesystem::path target);
-  ~PendingFile();
-  PendingFile(const PendingFile&) = delete;
-  PendingFile& operator=(const PendingFile&) = delete;
-
-  /// Where to write until then. The file is there, and empty.
-  const std::filesystem::path& path() const { return m_path; }
-  const std::filesystem::path& target() const { return m_target; }
-
-  /// Writes the whole contents. @throws spectral::InputError (full disk)
-  void write(std::string_view contents);
-
-  /// @throws spectral::InputError where the target cannot be replaced
-  void commit();
-
- private:
-  std::filesystem::path m_target;
-  std::filesystem::path m_path;
-  bool m_committed = false;
-};
+using spectral::PendingFile;
 
 }  // namespace metamer::ocio

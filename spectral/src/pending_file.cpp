@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "metamer/ocio/pending_file.h"
+#include "metamer/spectral/pending_file.h"
 
 #include <cerrno>
 #include <cstdio>
@@ -11,10 +11,8 @@
 
 #include "metamer/spectral/input_error.h"
 
-namespace metamer::ocio {
+namespace metamer::spectral {
 namespace {
-
-using spectral::InputError;
 
 struct Close {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -75,4 +73,4 @@ void PendingFile::commit() {
   m_committed = true;
 }
 
-}  // namespace metamer::ocio
+}  // namespace metamer::spectral

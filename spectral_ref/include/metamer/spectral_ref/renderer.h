@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "metamer/spectral_ref/film.h"
+#include "metamer/spectral_ref/scene.h"
+
+namespace metamer::spectral_ref {
+
+/// How direct light at the first surface is sampled.
+enum class Restir {
+  Off,    ///< next-event estimation alone
+  Hero,   ///< reservoirs with the target of the hero wavelength (4.15)
+  Lanes,  ///< reservoirs with a target summed over all lanes
+};
+
+/// What, besides the scene, decides every bit of a picture. The number of threads does not.
+struct RenderOptions {
+  std::uint32_t seed = 0;
+  bool guiding = false;
+  Restir restir = Restir::Off;
+  bool operator==(const RenderOptions&) const = default;
+};
+
+/// Renders a scene progressively into a film.
+class Renderer {
+ public:
+  /// @param scene    stays alive as long as the renderer
+  /// @param ranges   one range of samples to render; kept in Film::ranges() as they come in
+  /// @param threads  0: as many as there are
+  /// @throws std::runtime_error where Embree cannot take the scene
+  Renderer(const Scene& scene, const RenderOptions& options, std::uint64_t firstSample = 0, int threads = 0);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Takes samples up to `end`, but stops after about `seconds` at the earliest boundary between passes.
+  /// How the work is cut into calls changes no bit of the film.
+  void render(std::uint64_t end, double seconds);
+  /// The first sample not taken yet.
+  std::uint64_t nextSample() const;
+
+  const Film& film() const;
+  const RenderOptions& options() const;
+
+  /// All state as bytes, for a checkpoint; restore() goes on from there, bit by bit.
+  std::vector<unsigned char> state() const;
+  /// @throws spectral::InputError where the bytes are not of this scene and these options
+  /// @param where  what messages call the bytes
+  void restore(const std::vector<unsigned char>& state, const std::string& where);
+
+ private:
+  struct State;
+  std::unique_ptr<State> m_state;
+};
+
+}  // namespace metamer::spectral_ref

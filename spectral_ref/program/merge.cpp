@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "commands.h"
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral_ref/exr_film.h"
+
+namespace metamer::spectral_ref {
+namespace {
+
+struct MergeArguments {
+  std::vector<std::string> files;
+  std::string output;
+  bool keepsState = false;
+};
+
+void merge(const MergeArguments& arguments) {
+  auto [film, notes] = readExrState(arguments.files.front());
+  for (std::size_t i = 1; i < arguments.files.size(); ++i) {
+    const std::string& file = arguments.files[i];
+    const auto [other, otherNotes] = readExrState(file);
+    for (std::size_t n = 0; n < notes.size(); ++n) {
+      if (n >= otherNotes.size() || notes[n] != otherNotes[n]) {
+        throw spectral::InputError(file, notes[n].first, n < otherNotes.size() ? otherNotes[n].second : "",
+                                   "differs from the first file's, '" + notes[n].second +
+                                       "'; merge renders of one scene with the same options");
+      }
+    }
+    mergeFilm(film, other, file);
+  }
+  const bool withReplicates = std::any_of(
+      notes.begin(), notes.end(), [](const auto& note) { return note.first == "restir" && note.second != "off"; });
+  writeExr(film, notes, arguments.output, arguments.keepsState, withReplicates);
+  if (film.refused > 0) {
+    warn(arguments.output + ": " + std::to_string(film.refused) +
+         " samples were no finite number and are left out; the picture is too dark by their share");
+  }
+}
+
+}  // namespace
+
+void addMerge(CLI::App& application) {
+  CLI::App* command =
+      application.add_subcommand("merge", "Add up sample ranges: bit by bit the picture of one longer render");
+  const auto arguments = std::make_shared<MergeArguments>();
+  command->add_option("FILE", arguments->files, "Pictures rendered with --samples")->required()->expected(1, -1);
+  command->add_option("-o,--output", arguments->output, "Picture to write, .exr")->required();
+  command->add_flag("--keep-state", arguments->keepsState, "Keep the exact sums, to merge on later");
+  command->callback([arguments] { merge(*arguments); });
+}
+
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "commands.h"
+#include "metamer/spectral/data_library.h"
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral_ref/checkpoint.h"
+#include "metamer/spectral_ref/exr_film.h"
+#include "metamer/spectral_ref/picture_error.h"
+#include "metamer/spectral_ref/renderer.h"
+#include "metamer/spectral_ref/scene_reader.h"
+#include "progress.h"
+
+namespace metamer::spectral_ref {
+namespace {
+
+using spectral::InputError;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 32U;
+constexpr std::uint64_t kDefaultSamples = 64;
+/// Between two looks at the clock, the error and the signal.
+constexpr double kSecondsAStep = 0.25;
+
+struct RenderArguments {
+  std::string scene;
+  std::string output;
+  std::uint64_t samplesPerPixel = 0;
+  double seconds = 0;
+  double targetError = 0;
+  std::string range;
+  std::string guiding = "off";
+  std::string restir = "off";
+  std::uint32_t seed = 0;
+  int threads = 0;
+  bool resume = false;
+  double checkpointSeconds = 30;
+};
+
+volatile std::sig_atomic_t stopSignal = 0;  // NOLINT: a signal handler can reach nothing else
+extern "C" void onSignal(int signal) {
+  stopSignal = signal;
+}
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// "A:B", whole numbers, A < B.
+std::array<std::uint64_t, 2> parseRange(const std::string& text) {
+  std::array<std::uint64_t, 2> range{};
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, range[0]);
+  const bool hasColon = first.ec == std::errc() && first.ptr != end && *first.ptr == ':';
+  const auto second = hasColon ? std::from_chars(first.ptr + 1, end, range[1]) : first;
+  if (!hasColon || second.ec != std::errc() || second.ptr != end || range[0] >= range[1] || range[1] > kMostSamples) {
+    throw CLI::ValidationError("--samples", "'" + text + "' must be FIRST:END, such as 0:64");
+  }
+  return range;
+}
+
+class RenderJob {
+ public:
+  explicit RenderJob(const RenderArguments& arguments)
+      : m_arguments(arguments),
+        m_checkpoint(arguments.output + ".checkpoint"),
+        m_library(spectral::DataLibrary::openDefault()),
+        m_scene(readScene(arguments.scene, m_library)) {
+    for (const std::string& warning : m_scene.warnings) {
+      warn(warning);
+    }
+    if (!arguments.range.empty()) {
+      m_range = parseRange(arguments.range);
+    } else if (arguments.samplesPerPixel > 0) {
+      m_range[1] = arguments.samplesPerPixel;
+    } else if (arguments.seconds > 0 || arguments.targetError > 0) {
+      m_range[1] = kMostSamples;
+    } else {
+      m_range[1] = kDefaultSamples;
+    }
+    RenderOptions options;
+    options.seed = arguments.seed;
+    options.guiding = arguments.guiding == "on";
+    options.restir = arguments.restir == "hero"    ? Restir::Hero
+                     : arguments.restir == "lanes" ? Restir::Lanes
+                                                   : Restir::Off;
+    // Says so before hours of work if the picture could not be written.
+    checkOutput();
+    m_renderer = std::make_unique<Renderer>(m_scene, options, m_range[0], arguments.threads);
+    std::error_code none;
+    if (arguments.resume && std::filesystem::exists(m_checkpoint, none)) {
+      m_renderer->restore(readCheckpoint(m_checkpoint), m_checkpoint.string());
+      if (m_renderer->nextSample() > m_range[1]) {
+        throw InputError(m_checkpoint.string(), "samples", std::to_string(m_renderer->nextSample()),
+                         "are more than asked for (" + std::to_string(m_range[1]) + "); ask for more or delete it");
+      }
+    }
+  }
+
+  void run() {
+    std::signal(SIGINT, onSignal);
+    std::signal(SIGTERM, onSignal);
+    const bool isFinished = renderUntilDone();
+    if (!isFinished) {
+      saveCheckpoint();
+      throw std::runtime_error("stopped after " + std::to_string(m_renderer->nextSample() - m_range[0]) +
+                               " samples; go on with --resume");
+    }
+    const Film& film = m_renderer->film();
+    writeExr(film, notes(), m_arguments.output, !m_arguments.range.empty(), m_arguments.restir != "off");
+    if (film.refused > 0) {
+      warn(m_arguments.output + ": " + std::to_string(film.refused) +
+           " samples were no finite number and are left out; the picture is too dark by their share");
+    }
+    if (film.samples() == m_range[1] - m_range[0]) {
+      std::error_code none;
+      std::filesystem::remove(m_checkpoint, none);
+    } else {
+      saveCheckpoint();  // more may be asked for later
+    }
+  }
+
+ private:
+  void checkOutput() const {
+    const std::filesystem::path output = m_arguments.output;
+    std::error_code none;
+    const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
+    if (output.extension() != ".exr") {
+      throw InputError(output.string(), "extension", output.extension().string(), "must be .exr");
+    }
+    if (!std::filesystem::is_directory(folder, none)) {
+      throw InputError(output.string(), "output", "", "cannot be written: its folder is not there");
+    }
+  }
+
+  /// @return false where a signal stopped it
+  bool renderUntilDone() {
+    const Clock::time_point start = Clock::now();
+    const std::uint64_t begun = m_renderer->nextSample();
+    Clock::time_point saved = start;
+    Clock::time_point measured = start;
+    std::optional<double> error;
+    const Eigen::Matrix3d toXyz = xyzFromColour(m_scene.film);
+    Progress progress;
+    while (m_renderer->nextSample() < m_range[1]) {
+      double step = kSecondsAStep;
+      if (m_arguments.seconds > 0) {
+        step = std::min(step, m_arguments.seconds - secondsSince(start));
+        if (step <= 0) {
+          break;
+        }
+      }
+      m_renderer->render(m_range[1], step);
+      const double elapsed = secondsSince(start);
+      const auto done = static_cast<double>(m_renderer->nextSample() - begun);
+      // The error is measured ever more rarely: at most a tenth of the time goes into it.
+      if ((progress.isShown() || m_arguments.targetError > 0) && secondsSince(measured) > 10.0 * m_secondsToMeasure &&
+          m_renderer->film().samples() >= 2 * kReplicates) {
+        const Clock::time_point before = Clock::now();
+        error = pictureError(m_renderer->film(), toXyz);
+        measured = Clock::now();
+        m_secondsToMeasure = secondsSince(before);
+        if (m_arguments.targetError > 0 && *error <= m_arguments.targetError) {
+          break;
+        }
+      }
+      showProgress(progress, elapsed, done, static_cast<double>(m_range[1] - begun), error);
+      if (stopSignal != 0) {
+        return false;
+      }
+      if (secondsSince(saved) > m_arguments.checkpointSeconds) {
+        saveCheckpoint();
+        saved = Clock::now();
+      }
+    }
+    return true;
+  }
+
+  void showProgress(Progress& progress, double elapsed, double done, double wanted, std::optional<double> error) const {
+    double share = done / wanted;
+    if (m_arguments.seconds > 0) {
+      share = std::max(share, elapsed / m_arguments.seconds);
+    }
+    if (m_arguments.targetError > 0 && error && *error > 0) {
+      // Noise falls with the root of the samples.
+      share = std::max(share, std::min(1.0, std::pow(m_arguments.targetError / *error, 2.0)));
+    }
+    progress.show(share, m_renderer->film().samples(), error, share > 0 ? elapsed * (1.0 - share) / share : NAN);
+  }
+
+  /// A checkpoint that cannot be written does not end the render: it is said once.
+  void saveCheckpoint() {
+    try {
+      writeCheckpoint(m_renderer->state(), m_checkpoint);
+    } catch (const std::exception& error) {
+      if (!m_hasWarned) {
+        warn(std::string(error.what()) + " (the render goes on without checkpoints)");
+      }
+      m_hasWarned = true;
+    }
+  }
+
+  FilmNotes notes() const {
+    char fingerprint[17];
+    std::snprintf(fingerprint, sizeof fingerprint, "%016llx", static_cast<unsigned long long>(m_scene.fingerprint));
+    return {{"scene", fingerprint},
+            {"seed", std::to_string(m_arguments.seed)},
+            {"wavelengths", std::to_string(m_scene.integrator.wavelengths)},
+            {"guiding", m_arguments.guiding},
+            {"restir", m_arguments.restir},
+            {"version", METAMER_VERSION}};
+  }
+
+  RenderArguments m_arguments;
+  std::filesystem::path m_checkpoint;
+  spectral::DataLibrary m_library;
+  Scene m_scene;
+  std::array<std::uint64_t, 2> m_range{};
+  std::unique_ptr<Renderer> m_renderer;
+  double m_secondsToMeasure = 0;
+  bool m_hasWarned = false;
+};
+
+}  // namespace
+
+void addRender(CLI::App& application) {
+  CLI::App* command = application.add_subcommand("render", "Render a scene file to a multichannel OpenEXR picture");
+  const auto arguments = std::make_shared<RenderArguments>();
+  command->add_option("SCENE", arguments->scene, "Scene file (YAML)")->required();
+  command->add_option("-o,--output", arguments->output, "Picture to write, .exr")->required();
+  auto* samples = command->add_option("--spp", arguments->samplesPerPixel, "Samples a pixel; 64 by default")
+                      ->check(CLI::Range(std::uint64_t{1}, kMostSamples));
+  auto* seconds =
+      command->add_option("--seconds", arguments->seconds, "Render for about this long")->check(CLI::Range(0.001, 1e9));
+  auto* error = command
+                    ->add_option("--target-error", arguments->targetError,
+                                 "Render until noise is this CIEDE2000 on average over the picture")
+                    ->check(CLI::Range(1e-6, 100.0));
+  auto* range = command->add_option("--samples", arguments->range,
+                                    "Samples FIRST:END alone, with exact sums in the file, for spectral_ref merge");
+  samples->excludes(range);
+  seconds->excludes(range);
+  error->excludes(range);
+  command->add_option("--guiding", arguments->guiding, "Learn which wavelengths matter, pixel by pixel")
+      ->check(CLI::IsMember({"on", "off"}));
+  command->add_option("--restir", arguments->restir, "Resample direct light, by the hero wavelength or all lanes")
+      ->check(CLI::IsMember({"off", "hero", "lanes"}));
+  command->add_option("--seed", arguments->seed, "Another seed, other noise; 0 by default");
+  command->add_option("--threads", arguments->threads, "Threads; all by default. Changes no bit of the picture")
+      ->check(CLI::Range(1, 4096));
+  command->add_flag("--resume", arguments->resume, "Go on from OUTPUT.checkpoint where there is one");
+  command->add_option("--checkpoint", arguments->checkpointSeconds, "Seconds between checkpoints; 30 by default")
+      ->check(CLI::Range(0.0, 1e9));
+  command->callback([arguments] { RenderJob(*arguments).run(); });
+}
+
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "metamer/spectral_ref/scene.h"
+
+namespace metamer::spectral_ref {
+
+/// One value for each of the C wavelengths of a path.
+template <int C>
+using Lanes = Eigen::Array<float, C, 1>;
+
+/// Integrals over wavelength are sums over the cells 380 +- 0.5, 381 +- 0.5, ... nm: a continuous wavelength looks up
+/// the cell it lies in, so the expectation of a render is the sum over the 1 nm domain that the rest of metamer uses.
+inline constexpr int kCells = spectral::kDomainSize;
+inline constexpr float kFirstEdgeNm = static_cast<float>(spectral::kDomainStartNm) - 0.5F;
+
+/// The wavelengths a path carries; lane 0 is the hero.
+template <int C>
+struct WavelengthSet {
+  std::array<std::int32_t, C> cell;  ///< 0 ... 400
+  Lanes<C> nm;
+  Lanes<C> weight;  ///< 1 / (C density(nm)): what a lane's radiance counts, density in 1/nm
+};
+
+/// All spectra of a scene at 1 nm, one after another.
+class SpectrumTables {
+ public:
+  explicit SpectrumTables(const std::vector<spectral::DomainSamples>& spectra) {
+    m_values.reserve(spectra.size() * kCells);
+    for (const spectral::DomainSamples& spectrum : spectra) {
+      for (int i = 0; i < kCells; ++i) {
+        m_values.push_back(static_cast<float>(spectrum[i]));
+      }
+    }
+  }
+
+  const float* table(SpectrumId id) const { return m_values.data() + std::size_t{id} * kCells; }
+
+  template <int C>
+  Lanes<C> at(SpectrumId id, const WavelengthSet<C>& wavelengths) const {
+    const float* values = table(id);
+    Lanes<C> result;
+    for (int k = 0; k < C; ++k) {
+      result[k] = values[wavelengths.cell[static_cast<std::size_t>(k)]];
+    }
+    return result;
+  }
+
+ private:
+  std::vector<float> m_values;
+};
+
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "camera.h"
+#include "embree_scene.h"
+#include "lanes.h"
+#include "light_table.h"
+#include "material_table.h"
+#include "metamer/spectral_ref/scene.h"
+#include "sampler.h"
+
+namespace metamer::spectral_ref {
+
+/// A scene made ready to trace: flat tables, built once, read by all threads.
+struct PreparedScene {
+  explicit PreparedScene(const Scene& description)
+      : scene(description),
+        shapes(description),
+        spectra(description.spectra),
+        materials(description),
+        lights(description, shapes),
+        camera(description.camera, description.film) {}
+
+  const Scene& scene;
+  EmbreeScene shapes;
+  SpectrumTables spectra;
+  MaterialTable materials;
+  LightTable lights;
+  Camera camera;
+};
+
+/// Random numbers of a path by use. Set 0 serves the camera and the first vertex; vertex n > 0 has set n.
+class PathRandom {
+ public:
+  explicit PathRandom(const Sampler& sampler) : m_sampler(sampler), m_set(sampler.set(0)) {}
+
+  Eigen::Vector2f pixel() const { return {m_set[0], m_set[1]}; }
+  float wavelength() const { return m_set[2]; }
+
+  /// Goes on to a vertex: before any of the below.
+  void vertex(std::uint32_t number) {
+    m_vertex = number;
+    m_offset = 3;
+    if (number > 0) {
+      m_set = m_sampler.set(number);
+      m_offset = 0;
+    }
+  }
+  LightPoint light(const LightTable& lights) const {
+    return lights.choose(m_set.bits[m_offset + 2], m_set[m_offset], m_set[m_offset + 1]);
+  }
+  Eigen::Vector2f direction() const { return {m_set[m_offset + 3], m_set[m_offset + 4]}; }
+  float lobe() const { return m_vertex > 0 ? m_set[5] : m_sampler.random(0); }
+  float roulette() const { return m_vertex > 0 ? m_set[6] : m_sampler.random(1); }
+
+ private:
+  Sampler m_sampler;
+  Sampler::Set m_set;
+  std::size_t m_offset = 3;
+  std::uint32_t m_vertex = 0;
+};
+
+/// Radiance along a camera ray at C wavelengths: path tracing with next-event estimation and BSDF sampling, combined by
+/// the balance heuristic over path techniques and heroes (4.10).
+///
+/// `kDispersive` scenes have materials that send wavelengths different ways. In all others every density is the same
+/// for all heroes and the weights collapse to 1/C; that is decided once, by the choice of this template.
+template <int C, bool kDispersive>
+class PathIntegrator {
+ public:
+  explicit PathIntegrator(const PreparedScene& prepared)
+      : m_prepared(prepared), m_settings(prepared.scene.integrator) {}
+
+  Lanes<C> radiance(Ray ray, const WavelengthSet<C>& wavelengths, PathRandom& random) const {
+    Path path;
+    for (int edge = 1;; ++edge) {
+      Hit hit;
+      const Passage passage = trace(ray, hit, path.throughput, wavelengths);
+      if (passage == Passage::Absorbed) {
+        break;
+      }
+      if (passage == Passage::Escaped) {
+        addEnvironment(ray, path, wavelengths);
+        break;
+      }
+      addEmission(ray, hit, path, wavelengths);
+      if (edge >= m_settings.maxDepth) {
+        break;
+      }
+      const Frame frame(hit.normal);
+      const Vec3 out = frame.toLocal(-ray.direction);
+      const auto bsdf =
+          m_prepared.materials.template bsdf<C, kDispersive>(hit.material, m_prepared.spectra, wavelengths);
+      if (bsdf.isBlack(out)) {
+        break;
+      }
+      random.vertex(static_cast<std::uint32_t>(edge - 1));
+      if (!bsdf.isDelta() && !m_prepared.lights.empty()) {
+        addDirectLight(hit, frame, out, bsdf, random.light(m_prepared.lights), path, wavelengths);
+      }
+      if (!scatter(hit, frame, out, bsdf, random, path, ray)) {
+        break;
+      }
+      if (edge + 1 >= m_settings.russianRoulette && !survives(random.roulette(), path)) {
+        break;
+      }
+    }
+    return path.radiance;
+  }
+
+ private:
+  enum class Passage { Hit, Escaped, Absorbed };
+
+  /// What a path has become on its way from the camera.
+  struct Path {
+    Lanes<C> radiance = Lanes<C>::Zero();
+    /// Product of BSDFs and cosines over the density of the path's directions with the hero that drew them.
+    Lanes<C> throughput = Lanes<C>::Ones();
+    /// The same density with each lane as hero, over that of the hero.
+    Density<C, kDispersive> heroes = ones();
+    float heroSum = static_cast<float>(C);        ///< over all heroes
+    float heroSumBefore = static_cast<float>(C);  ///< the same before the last direction was drawn
+    float lastPdf = 0;                            ///< of that direction, by the hero
+    Vec3 lastPosition = Vec3::Zero();
+    bool lastIsDelta = true;  ///< next-event estimation could not have found what it hits
+  };
+
+  static Density<C, kDispersive> ones() {
+    if constexpr (kDispersive) {
+      return Lanes<C>::Ones();
+    } else {
+      return 1.0F;
+    }
+  }
+
+  /// Follows a ray to the next surface that scatters, through gels, which count as no edge.
+  Passage trace(Ray& ray, Hit& hit, Lanes<C>& throughput, const WavelengthSet<C>& wavelengths) const {
+    while (m_prepared.shapes.intersect(ray, hit)) {
+      if (!m_prepared.materials.isGel(hit.material)) {
+        return Passage::Hit;
+      }
+      throughput *= m_prepared.spectra.at(m_prepared.materials.gelTransmittance(hit.material), wavelengths);
+      if (!(throughput.maxCoeff() > 0.0F)) {
+        return Passage::Absorbed;
+      }
+      ray.origin = offPoint(hit.position, hit.normal, ray.direction);
+    }
+    return Passage::Escaped;
+  }
+
+  /// What gels leave of the light between two points; false where something else lies between.
+  bool transmits(Ray ray, std::uint32_t emitter, Lanes<C>& light, const WavelengthSet<C>& wavelengths) const {
+    if (!m_prepared.materials.hasGels()) {
+      return !m_prepared.shapes.occluded(ray);
+    }
+    Hit hit;
+    while (m_prepared.shapes.intersect(ray, hit)) {
+      if (hit.emitter == emitter) {
+        return true;  // the light itself, found a little early
+      }
+      if (!m_prepared.materials.isGel(hit.material)) {
+        return false;
+      }
+      light *= m_prepared.spectra.at(m_prepared.materials.gelTransmittance(hit.material), wavelengths);
+      if (!(light.maxCoeff() > 0.0F)) {
+        return false;
+      }
+      const Vec3 next = offPoint(hit.position, hit.normal, ray.direction);
+      ray.most -= (next - ray.origin).dot(ray.direction);
+      ray.origin = next;
+    }
+    return true;
+  }
+
+  /// Weight of light found by following the BSDF, where next-event estimation finds it with density `lightPdf`:
+  /// C p_bsdf / (sum of p_bsdf + sum of p_light over heroes).
+  static float bsdfWeight(const Path& path, float lightPdf) {
+    const float others = path.lastIsDelta ? 0.0F : lightPdf / path.lastPdf * path.heroSumBefore;
+    return static_cast<float>(C) / (path.heroSum + others);
+  }
+
+  void addEmission(const Ray& ray, const Hit& hit, Path& path, const WavelengthSet<C>& wavelengths) const {
+    if (hit.emitter == kNone || ray.direction.dot(hit.normal) >= 0.0F) {
+      return;
+    }
+    const LightTable& lights = m_prepared.lights;
+    const float lightPdf = path.lastIsDelta ? 0.0F : lights.pdf(hit, path.lastPosition, ray.direction);
+    path.radiance += path.throughput *
+                     lights.radiance(hit.emitter, lights.elementOf(hit), m_prepared.spectra, wavelengths) *
+                     bsdfWeight(path, lightPdf);
+  }
+
+  void addEnvironment(const Ray& ray, Path& path, const WavelengthSet<C>& wavelengths) const {
+    const LightTable& lights = m_prepared.lights;
+    if (!lights.hasEnvironment()) {
+      return;
+    }
+    const float lightPdf = path.lastIsDelta ? 0.0F : lights.environmentPdf(ray.direction);
+    path.radiance += path.throughput *
+                     lights.radiance(lights.environmentEmitter(), lights.environmentElement(ray.direction),
+                                     m_prepared.spectra, wavelengths) *
+                     bsdfWeight(path, lightPdf);
+  }
+
+  template <typename Bsdf>
+  void addDirectLight(const Hit& hit, const Frame& frame, const Vec3& out, const Bsdf& bsdf, const LightPoint& point,
+                      Path& path, const WavelengthSet<C>& wavelengths) const {
+    const LightTable& lights = m_prepared.lights;
+    const LightSample light = lights.sample(point, hit.position);
+    if (!(light.pdf > 0.0F)) {
+      return;
+    }
+    const BsdfValue<C, kDispersive> value = bsdf.evaluate(out, frame.toLocal(light.direction));
+    if (!(value.value.maxCoeff() > 0.0F)) {
+      return;
+    }
+    Lanes<C> arriving = lights.radiance(light.emitter, light.element, m_prepared.spectra, wavelengths) * light.scale;
+    if (!(arriving.maxCoeff() > 0.0F) || !transmits(shadowRay(hit, light), light.emitter, arriving, wavelengths)) {
+      return;
+    }
+    // A point light is found by this technique alone.
+    const float bsdfSum = light.isDelta ? 0.0F : sumOverHeroes<C>(value.pdf * path.heroes);
+    path.radiance +=
+        path.throughput * value.value * arriving * static_cast<float>(C) / (light.pdf * path.heroSum + bsdfSum);
+  }
+
+  static Ray shadowRay(const Hit& hit, const LightSample& light) {
+    Ray ray;
+    ray.origin = offPoint(hit.position, hit.normal, light.direction);
+    ray.direction = light.direction;
+    // Short of the light by more than float error.
+    constexpr float kShort = 1.0F - 1e-4F;
+    ray.most = light.distance * kShort;
+    return ray;
+  }
+
+  /// Draws the next direction; false where the path ends.
+  template <typename Bsdf>
+  static bool scatter(const Hit& hit, const Frame& frame, const Vec3& out, const Bsdf& bsdf, const PathRandom& random,
+                      Path& path, Ray& ray) {
+    const Eigen::Vector2f square = random.direction();
+    const BsdfSample<C, kDispersive> sample = bsdf.sample(out, square.x(), square.y(), [&] { return random.lobe(); });
+    const float pdf = heroDensity(sample.pdf);
+    path.throughput *= sample.weight;
+    if (!(pdf > 0.0F) || !(path.throughput.maxCoeff() > 0.0F)) {
+      return false;
+    }
+    path.heroSumBefore = path.heroSum;
+    if constexpr (kDispersive) {
+      path.heroes *= sample.pdf / pdf;
+      path.heroSum = path.heroes.sum();
+    }
+    path.lastPdf = pdf;
+    path.lastPosition = hit.position;
+    path.lastIsDelta = sample.isDelta;
+    ray.direction = frame.toWorld(sample.direction);
+    ray.origin = offPoint(hit.position, hit.normal, ray.direction);
+    return true;
+  }
+
+  /// Russian roulette on the largest lane, the same for every hero, so that it changes no weight.
+  static bool survives(float u, Path& path) {
+    const float chance = std::min(1.0F, path.throughput.maxCoeff() * static_cast<float>(C) / path.heroSum);
+    if (u >= chance) {
+      return false;
+    }
+    path.throughput /= chance;
+    return true;
+  }
+
+  const PreparedScene& m_prepared;
+  const IntegratorSettings& m_settings;
+};
+
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/spectral_ref/renderer.h"
+
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <vector>
+
+#include "state_bytes.h"
+#include "tile_tracer.h"
+
+namespace metamer::spectral_ref {
+namespace {
+
+constexpr int kTileSide = 16;
+constexpr std::uint64_t kMostSamplesAPass = 4096;
+/// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
+constexpr std::uint64_t kStateVersion = 0x6d65746100000001U;
+
+std::vector<Tile> tilesOf(int width, int height) {
+  std::vector<Tile> tiles;
+  for (int y = 0; y < height; y += kTileSide) {
+    for (int x = 0; x < width; x += kTileSide) {
+      tiles.push_back({x, y, std::min(x + kTileSide, width), std::min(y + kTileSide, height)});
+    }
+  }
+  return tiles;
+}
+
+std::unique_ptr<TileTracer> tracerFor(const PreparedScene& prepared, FilmSensor& sensor, std::uint32_t seed) {
+  switch (prepared.scene.integrator.wavelengths) {
+    case 1:
+      return makeTileTracer<1>(prepared, sensor, seed);
+    case 8:
+      return makeTileTracer<8>(prepared, sensor, seed);
+    case 16:
+      return makeTileTracer<16>(prepared, sensor, seed);
+    default:
+      assert(prepared.scene.integrator.wavelengths == 4);
+      return makeTileTracer<4>(prepared, sensor, seed);
+  }
+}
+
+}  // namespace
+
+struct Renderer::State {
+  State(const Scene& scene, const RenderOptions& renderOptions, std::uint64_t firstSample, int threads)
+      : options(renderOptions),
+        prepared(scene),
+        sensor(scene.film),
+        film(FilmFormat::of(scene.film, {})),
+        tiles(tilesOf(scene.film.width, scene.film.height)),
+        arena(threads > 0 ? std::min(threads, tbb::info::default_concurrency()) : tbb::task_arena::automatic),
+        first(firstSample),
+        next(firstSample),
+        tracer(tracerFor(prepared, sensor, options.seed)) {}
+
+  void pass(std::uint64_t end) {
+    arena.execute([&] {
+      tbb::parallel_for(
+          tbb::blocked_range<std::size_t>(0, tiles.size(), 1),
+          [&](const tbb::blocked_range<std::size_t>& range) {
+            for (std::size_t i = range.begin(); i < range.end(); ++i) {
+              tracer->trace(tiles[i], next, end, film);
+            }
+          },
+          tbb::simple_partitioner());
+    });
+    next = end;
+    film.setRanges({{first, next}});
+    film.refused = refusedBefore + sensor.refused();
+  }
+
+  RenderOptions options;
+  PreparedScene prepared;
+  FilmSensor sensor;
+  Film film;
+  std::vector<Tile> tiles;
+  tbb::task_arena arena;
+  std::uint64_t first;
+  std::uint64_t next;
+  std::uint64_t refusedBefore = 0;
+  std::unique_ptr<TileTracer> tracer;
+  double secondsASample = 0;
+};
+
+Renderer::Renderer(const Scene& scene, const RenderOptions& options, std::uint64_t firstSample, int threads)
+    : m_state(std::make_unique<State>(scene, options, firstSample, threads)) {}
+
+Renderer::~Renderer() = default;
+
+void Renderer::render(std::uint64_t end, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const auto elapsed = [&start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  while (m_state->next < end && elapsed() < seconds) {
+    // As many samples a pass as fill the time left, once their price is known.
+    std::uint64_t count = 1;
+    if (m_state->secondsASample > 0) {
+      const double fitting = (seconds - elapsed()) / m_state->secondsASample;
+      count = static_cast<std::uint64_t>(std::clamp(fitting, 1.0, static_cast<double>(kMostSamplesAPass)));
+    }
+    const double before = elapsed();
+    count = std::min(count, end - m_state->next);
+    m_state->pass(m_state->next + count);
+    m_state->secondsASample = (elapsed() - before) / static_cast<double>(count);
+  }
+}
+
+std::uint64_t Renderer::nextSample() const {
+  return m_state->next;
+}
+
+const Film& Renderer::film() const {
+  return m_state->film;
+}
+
+const RenderOptions& Renderer::options() const {
+  return m_state->options;
+}
+
+std::vector<unsigned char> Renderer::state() const {
+  StateWriter writer;
+  writer.put(kStateVersion);
+  writer.put(m_state->prepared.scene.fingerprint);
+  writer.put(m_state->options.seed);
+  writer.put(m_state->options.guiding);
+  writer.put(m_state->options.restir);
+  writer.put(m_state->first);
+  writer.put(m_state->next);
+  writer.put(m_state->film.refused);
+  writer.putAll(m_state->film.sums());
+  return std::move(writer).take();
+}
+
+void Renderer::restore(const std::vector<unsigned char>& state, const std::string& where) {
+  StateReader reader(state, where);
+  if (reader.get<std::uint64_t>() != kStateVersion) {
+    throw reader.damaged();
+  }
+  const auto fingerprint = reader.get<std::uint64_t>();
+  const auto other = [&](const char* what) {
+    return spectral::InputError(where, what, "",
+                                "differs from what the checkpoint was made with; delete it to start again");
+  };
+  if (fingerprint != m_state->prepared.scene.fingerprint) {
+    throw other("scene");
+  }
+  RenderOptions options;
+  options.seed = reader.get<std::uint32_t>();
+  options.guiding = reader.get<bool>();
+  options.restir = reader.get<Restir>();
+  if (!(options == m_state->options)) {
+    throw other("seed, guiding or restir");
+  }
+  if (reader.get<std::uint64_t>() != m_state->first) {
+    throw other("first sample");
+  }
+  const auto next = reader.get<std::uint64_t>();
+  const auto refused = reader.get<std::uint64_t>();
+  std::vector<ExactSum>& sums = m_state->film.sums();
+  reader.getAll(sums);
+  reader.finish();
+  m_state->next = next;
+  m_state->refusedBefore = refused;
+  m_state->film.refused = refused;
+  m_state->film.setRanges({{m_state->first, next}});
+}
+
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace metamer::spectral_ref {
+
+/// Well mixed 32 bits of a counter or a pair of them (a finaliser of the murmur family, by Wellons).
+inline std::uint32_t hash32(std::uint32_t x) {
+  x ^= x >> 16U;
+  x *= 0x21f0aaadU;
+  x ^= x >> 15U;
+  x *= 0xd35a2d97U;
+  x ^= x >> 15U;
+  return x;
+}
+inline std::uint32_t hash32(std::uint32_t a, std::uint32_t b) {
+  return hash32(a ^ (hash32(b + 0x9e3779b9U) * 0x85ebca6bU + 0xc2b2ae35U));
+}
+
+/// 0 ... 1, never 1, from 32 bits.
+inline float unitFloat(std::uint32_t bits) {
+  return static_cast<float>(bits >> 8U) * 0x1p-24F;
+}
+
+/// Random numbers of one path: Owen-scrambled Sobol points in sets of eight dimensions, each set a shuffled sequence of
+/// its own (Burley 2020, Practical Hash-based Owen Scrambling). A pure function of seed, pixel, sample and set.
+class Sampler {
+ public:
+  static constexpr int kSetSize = 8;
+  struct Set {
+    std::array<std::uint32_t, kSetSize> bits;
+    float operator[](std::size_t dimension) const { return unitFloat(bits[dimension]); }
+  };
+
+  /// @param sequence  names the pixel and the replicate: points of one sequence are stratified against each other
+  /// @param index     of the sample within the sequence
+  Sampler(std::uint32_t sequence, std::uint32_t index) : m_sequence(sequence), m_index(index) {}
+
+  Set set(std::uint32_t number) const;
+  /// Not stratified: for choices that come up too rarely.
+  float random(std::uint32_t number) const {
+    return unitFloat(hash32(hash32(m_sequence, m_index), number ^ 0x5bd1e995U));
+  }
+
+ private:
+  std::uint32_t m_sequence;
+  std::uint32_t m_index;
+};
+
+}  // namespace metamer::spectral_ref

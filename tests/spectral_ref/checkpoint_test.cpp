@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/spectral_ref/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "spectral_ref/scene_fixture.h"
+
+namespace metamer::spectral_ref {
+namespace {
+
+using spectral::errorOf;
+
+class CheckpointTest : public testing::Test {
+ protected:
+  std::filesystem::path file(const std::string& name) const {
+    return std::filesystem::path(testing::TempDir()) / ("checkpoint_test_" + name);
+  }
+};
+
+TEST_F(CheckpointTest, ComesBackAsItWas) {
+  const std::vector<unsigned char> state = {1, 2, 3, 0, 255, 7, 8, 9, 10, 11};
+  writeCheckpoint(state, file("whole"));
+  EXPECT_EQ(readCheckpoint(file("whole")), state);
+}
+
+TEST_F(CheckpointTest, DamageIsNoticed) {
+  std::vector<unsigned char> state(1000, 5);
+  writeCheckpoint(state, file("damaged"));
+  std::string bytes(1008, '\0');
+  std::ifstream(file("damaged"), std::ios::binary).read(bytes.data(), 1008);
+  for (const std::size_t place : {std::size_t{0}, std::size_t{500}, std::size_t{1007}}) {
+    std::string changed = bytes;
+    changed[place] = static_cast<char>(changed[place] ^ 1);
+    std::ofstream(file("damaged"), std::ios::binary) << changed;
+    EXPECT_NE(errorOf([&] { readCheckpoint(file("damaged")); }).find("is damaged"), std::string::npos) << place;
+  }
+  std::ofstream(file("damaged"), std::ios::binary) << bytes.substr(0, 999);
+  EXPECT_NE(errorOf([&] { readCheckpoint(file("damaged")); }).find("is damaged"), std::string::npos);
+  EXPECT_NE(errorOf([&] { readCheckpoint(file("none")); }).find("cannot be read"), std::string::npos);
+}
+
+TEST_F(CheckpointTest, OfAnotherRenderIsRefused) {
+  const Scene scene = sceneOf(chartScene(4, "A", 12, 8));
+  Renderer renderer(scene, {});
+  renderer.render(2, 1e9);
+  const auto state = renderer.state();
+  const Scene other = sceneOf(chartScene(4, "D65", 12, 8));
+  EXPECT_NE(errorOf([&] { Renderer(other, {}).restore(state, "x"); }).find("scene"), std::string::npos);
+  RenderOptions seed;
+  seed.seed = 3;
+  EXPECT_NE(errorOf([&] { Renderer(scene, seed).restore(state, "x"); }).find("seed"), std::string::npos);
+  EXPECT_NE(errorOf([&] { Renderer(scene, {}, 5).restore(state, "x"); }).find("first sample"), std::string::npos);
+  for (const std::size_t size : {std::size_t{0}, std::size_t{9}, state.size() - 1}) {
+    const std::vector<unsigned char> cut(state.begin(), state.begin() + static_cast<std::ptrdiff_t>(size));
+    EXPECT_NE(errorOf([&] { Renderer(scene, {}).restore(cut, "x"); }).find("is damaged"), std::string::npos) << size;
+  }
+}
+
+}  // namespace
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same bits whatever the threads, the passes and the parts a render is cut into.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "metamer/spectral_ref/exr_film.h"
+#include "spectral_ref/scene_fixture.h"
+
+namespace metamer::spectral_ref {
+namespace {
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+const Scene& scene() {
+  static const Scene chart = sceneOf(chartScene(4, "FL11", 50, 35));
+  return chart;
+}
+
+class ReproducibleTest : public testing::TestWithParam<RenderOptions> {};
+
+TEST_P(ReproducibleTest, AnyNumberOfThreads) {
+  const Film one = rendered(scene(), 24, GetParam(), 1);
+  for (const int threads : {2, 3, 7}) {
+    EXPECT_EQ(rendered(scene(), 24, GetParam(), threads).sums(), one.sums()) << threads;
+  }
+}
+
+TEST_P(ReproducibleTest, AnyNumberOfPasses) {
+  const Film whole = rendered(scene(), 24, GetParam());
+  Renderer renderer(scene(), GetParam());
+  for (const std::uint64_t end : {1U, 2U, 9U, 16U, 24U}) {
+    renderer.render(end, kForever);
+    EXPECT_EQ(renderer.nextSample(), end);
+  }
+  EXPECT_EQ(renderer.film().sums(), whole.sums());
+}
+
+TEST_P(ReproducibleTest, ACheckpointGoesOnBitByBit) {
+  const Film whole = rendered(scene(), 40, GetParam());
+  Renderer first(scene(), GetParam());
+  first.render(21, kForever);
+  Renderer second(scene(), GetParam());
+  second.restore(first.state(), "checkpoint");
+  second.render(40, kForever);
+  EXPECT_EQ(second.film().sums(), whole.sums());
+  EXPECT_EQ(second.film().ranges(), whole.ranges());
+}
+
+TEST_P(ReproducibleTest, RangesMergeExactly) {
+  const Film whole = rendered(scene(), 40, GetParam());
+  Film merged(whole.format());
+  for (const auto& [begin, end] : SampleRanges{{11, 40}, {0, 5}, {5, 11}}) {
+    Renderer renderer(scene(), GetParam(), begin);
+    renderer.render(end, kForever);
+    mergeFilm(merged, renderer.film(), "part");
+  }
+  EXPECT_EQ(merged.sums(), whole.sums());
+  EXPECT_EQ(merged.ranges(), whole.ranges());
+  EXPECT_NE(spectral::errorOf([&] { mergeFilm(merged, whole, "part"); }).find("overlap"), std::string::npos);
+}
+
+TEST_P(ReproducibleTest, AnotherSeedIsAnotherPicture) {
+  RenderOptions other = GetParam();
+  other.seed = 1;
+  EXPECT_NE(rendered(scene(), 4, GetParam()).sums(), rendered(scene(), 4, other).sums());
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, ReproducibleTest, testing::Values(RenderOptions{}));
+
+}  // namespace
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spectral_ref/scene_fixture.h"
+
+#include <cmath>
+#include <limits>
+
+namespace metamer::spectral_ref {
+
+Scene sceneOf(const std::string& text) {
+  return parseScene(text, "scene.yaml", {}, spectral::testLibrary());
+}
+
+Film rendered(const Scene& scene, std::uint64_t samples, const RenderOptions& options, int threads) {
+  Renderer renderer(scene, options, 0, threads);
+  renderer.render(samples, std::numeric_limits<double>::infinity());
+  return renderer.film();
+}
+
+AreaMean luminanceOver(const Film& film, int x, int y, int width, int height) {
+  AreaMean result;
+  double variance = 0;
+  for (int row = y; row < y + height; ++row) {
+    for (int column = x; column < x + width; ++column) {
+      const Estimate estimate = film.luminance(static_cast<std::size_t>(row * film.format().width + column));
+      result.mean += estimate.mean;
+      variance += estimate.variance;
+    }
+  }
+  const double pixels = static_cast<double>(width) * height;
+  result.mean /= pixels;
+  result.error = std::sqrt(variance) / pixels;
+  return result;
+}
+
+double meanRadiance(const Film& film, int bin) {
+  double sum = 0;
+  for (std::size_t i = 0; i < film.format().pixels(); ++i) {
+    sum += film.radiance(i, bin);
+  }
+  return sum / static_cast<double>(film.format().pixels());
+}
+
+std::string chartScene(int wavelengths, const std::string& lamp, int width, int height) {
+  return "metamer_scene: 1\n"
+         "film: {width: " +
+         std::to_string(width) + ", height: " + std::to_string(height) +
+         "}\n"
+         "camera: {origin: [0, 0, 10], target: [0, 0, 0], up: [0, 1, 0], fov_x: 34}\n"
+         "integrator: {max_depth: 2, wavelengths: " +
+         std::to_string(wavelengths) +
+         "}\n"
+         "spectra: {lamp: {illuminant: " +
+         lamp +
+         ", scale: 0.5}}\n"
+         "shapes:\n"
+         "  - chart: {set: colorchecker, center: [0, 0, 0], half_u: [3, 0, 0], half_v: [0, 2, 0]}\n"
+         "  - rectangle: {center: [-3, 4, 6], half_u: [0.3, 0, 0], half_v: [0, 0, 0.3]}\n"
+         "    emission: lamp\n";
+}
+
+}  // namespace metamer::spectral_ref

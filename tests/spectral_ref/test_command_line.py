@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: Apache-2.0
+"""spectral_ref's contract with the shell: exit codes, one line of stderr, files whole or not at all, equal bytes."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import numpy as np
+import OpenEXR
+
+PROGRAM = Path(os.environ["METAMER_BIN"]) / "spectral_ref"
+
+SCENE = """metamer_scene: 1
+film: {width: 40, height: 32, observer: CIE 1931 2, space: XYZ, bins: {from: 400, to: 700, step: 50}}
+camera: {origin: [0, 0, 9], target: [0, 0, 0], up: [0, 1, 0], fov_x: 12}
+integrator: {max_depth: 6, russian_roulette: 5, wavelengths: 4}
+spectra: {lamp: {illuminant: A, scale: 12}, paint: {wavelengths: [400, 700], values: [0.2, 0.6]}}
+shapes:
+  - rectangle: {center: [0, 0, 0], half_u: [1, 0, 0], half_v: [0, 1, 0]}
+    diffuse: paint
+  - rectangle: {center: [-3, 4, 6], half_u: [1, 0, 0], half_v: [0, 0, 1]}
+    emission: lamp
+"""
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        (self.folder / "scene.yaml").write_text(SCENE)
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
+
+    def works(self, *arguments):
+        result = self.run_program(*arguments)
+        self.assertEqual((result.returncode, result.stderr), (0, ""), arguments)
+        return result.stdout
+
+    def fails(self, *arguments, code, says=""):
+        before = sorted(path.name for path in self.folder.iterdir())
+        result = self.run_program(*arguments)
+        self.assertEqual(result.returncode, code, (arguments, result.stderr))
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertTrue(result.stderr.startswith("spectral_ref: "), result.stderr)
+        self.assertIn(says, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before)
+
+    def read(self, name):
+        return (self.folder / name).read_bytes()
+
+    def test_help(self):
+        for arguments in (["--help"], ["render", "--help"], ["merge", "--help"], ["measure", "--help"], ["--version"]):
+            self.assertNotEqual(self.works(*arguments), "")
+
+    def test_usage_errors(self):
+        for arguments in (
+            [],
+            ["draw"],
+            ["render", "scene.yaml"],
+            ["render", "-o", "a.exr"],
+            ["render", "scene.yaml", "-o", "a.exr", "--spp", "0"],
+            ["render", "scene.yaml", "-o", "a.exr", "--spp", "4x"],
+            ["render", "scene.yaml", "-o", "a.exr", "--samples", "4:2"],
+            ["render", "scene.yaml", "-o", "a.exr", "--samples", "4"],
+            ["render", "scene.yaml", "-o", "a.exr", "--samples", "0:4", "--spp", "4"],
+            ["render", "scene.yaml", "-o", "a.exr", "--guiding", "maybe"],
+            ["render", "scene.yaml", "-o", "a.exr", "--restir", "all"],
+            ["render", "scene.yaml", "-o", "a.exr", "--threads", "0"],
+            ["render", "scene.yaml", "-o", "a.exr", "--seed", "-1"],
+            ["merge", "-o", "a.exr"],
+        ):
+            with self.subTest(arguments):
+                self.fails(*arguments, code=2)
+
+    def test_failures(self):
+        (self.folder / "bad.yaml").write_text(SCENE.replace("diffuse: paint", "diffuse: pain"))
+        self.fails("render", "none.yaml", "-o", "a.exr", code=1, says="no such file")
+        self.fails("render", "bad.yaml", "-o", "a.exr", code=1, says="bad.yaml:8:14")
+        self.fails("render", "scene.yaml", "-o", "a.png", code=1, says="must be .exr")
+        self.fails("render", "scene.yaml", "-o", "no/such/a.exr", "--spp", "1", code=1, says="folder")
+        self.fails("merge", "scene.yaml", "-o", "a.exr", code=1, says="cannot be read")
+        self.fails("measure", "none.exr", code=1, says="cannot be read")
+
+    def test_the_file(self):
+        self.works("render", "scene.yaml", "-o", "a.exr", "--spp", "16")
+        file = OpenEXR.File(str(self.folder / "a.exr"), separate_channels=True)
+        header = file.header()
+        pixels = {name: channel.pixels for name, channel in file.channels().items()}
+        names = set(pixels)
+        bins = {f"S0.{nm},000000nm" for nm in range(400, 701, 50)}
+        self.assertEqual(names, {"R", "G", "B", "Y", "variance.Y", "samples"} | bins)
+        self.assertEqual(header["spectralLayoutVersion"], "1.0")
+        self.assertEqual(header["emissiveUnits"], "W.m^-2.sr^-1.nm^-1")
+        for channel in pixels.values():
+            self.assertEqual(channel.dtype, np.float32)
+            self.assertEqual(channel.shape, (32, 40))
+            self.assertTrue(np.isfinite(channel).all())
+        np.testing.assert_array_equal(pixels["samples"], 16)
+        np.testing.assert_allclose(pixels["G"], pixels["Y"], rtol=1e-6)
+        self.assertGreater(pixels["variance.Y"].mean(), 0)
+
+    def test_same_bytes_whatever_the_threads_and_parts(self):
+        self.works("render", "scene.yaml", "-o", "whole.exr", "--spp", "24")
+        self.works("render", "scene.yaml", "-o", "one.exr", "--spp", "24", "--threads", "1")
+        self.assertEqual(self.read("whole.exr"), self.read("one.exr"))
+        self.works("render", "scene.yaml", "-o", "a.exr", "--samples", "0:7")
+        self.works("render", "scene.yaml", "-o", "b.exr", "--samples", "7:24", "--threads", "1")
+        self.works("merge", "b.exr", "a.exr", "-o", "merged.exr")
+        self.assertEqual(self.read("whole.exr"), self.read("merged.exr"))
+        self.works("merge", "b.exr", "-o", "part.exr", "--keep-state")
+        self.works("merge", "part.exr", "a.exr", "-o", "merged.exr")
+        self.assertEqual(self.read("whole.exr"), self.read("merged.exr"))
+        self.fails("merge", "a.exr", "a.exr", "-o", "c.exr", code=1, says="overlap")
+        self.fails("merge", "a.exr", "whole.exr", "-o", "c.exr", code=1, says="--samples")
+        self.works("render", "scene.yaml", "-o", "other.exr", "--samples", "24:30", "--seed", "1")
+        self.fails("merge", "a.exr", "other.exr", "-o", "c.exr", code=1, says="seed")
+
+    def test_a_killed_render_goes_on(self):
+        scene = SCENE.replace("width: 40, height: 32", "width: 120, height: 100")
+        (self.folder / "scene.yaml").write_text(scene)
+        self.works("render", "scene.yaml", "-o", "whole.exr", "--spp", "400")
+        for number in (signal.SIGKILL, signal.SIGINT):
+            with self.subTest(number):
+                process = subprocess.Popen(
+                    [PROGRAM, "render", "scene.yaml", "-o", "cut.exr", "--spp", "400", "--checkpoint", "0"],
+                    cwd=self.folder,
+                    stderr=subprocess.PIPE,
+                )
+                checkpoint = self.folder / "cut.exr.checkpoint"
+                while not checkpoint.exists() and process.poll() is None:
+                    time.sleep(0.01)
+                process.send_signal(number)
+                process.communicate()
+                self.assertTrue(checkpoint.exists())
+                self.assertFalse((self.folder / "cut.exr").exists())
+                self.fails("render", "scene.yaml", "-o", "cut.exr", "--spp", "400", "--resume", "--seed", "1",
+                           code=1, says="checkpoint")
+                self.works("render", "scene.yaml", "-o", "cut.exr", "--spp", "400", "--resume")
+                self.assertEqual(self.read("whole.exr"), self.read("cut.exr"))
+                self.assertFalse(checkpoint.exists())
+                (self.folder / "cut.exr").unlink()
+
+    def test_a_checkpoint_that_cannot_be_written(self):
+        # A checkpoint that cannot be written (its place is taken by a folder) is said once; the picture still comes.
+        (self.folder / "a.exr.checkpoint").mkdir()
+        result = self.run_program("render", "scene.yaml", "-o", "a.exr", "--seconds", "0.6", "--checkpoint", "0")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertIn("goes on without checkpoints", result.stderr)
+        self.assertTrue((self.folder / "a.exr").exists())
+
+    def test_seconds_and_target_error(self):
+        start = time.monotonic()
+        self.works("render", "scene.yaml", "-o", "a.exr", "--seconds", "0.5")
+        self.assertLess(time.monotonic() - start, 30)
+        self.assertTrue((self.folder / "a.exr.checkpoint").exists())
+        self.works("render", "scene.yaml", "-o", "b.exr", "--target-error", "2")
+        self.assertTrue((self.folder / "b.exr").exists())
+
+    def test_measure(self):
+        self.works("render", "scene.yaml", "-o", "a.exr", "--spp", "64")
+        report = json.loads(self.works("measure", "a.exr", "--patch", "middle=16,12,8,8", "--json"))
+        patch = report["patches"][0]
+        self.assertEqual((patch["name"], patch["area"]), ("middle", [16, 12, 8, 8]))
+        low, high = patch["interval95"]
+        self.assertTrue(low < patch["Y"] < high)
+        self.assertEqual(report["wavelengths"], list(range(400, 701, 50)))
+        table = self.works("measure", "a.exr", "--grid", "4x2")
+        self.assertEqual(len(table.splitlines()), 9)
+        self.assertRegex(table, re.compile("^8 ", re.MULTILINE))
+
+
+if __name__ == "__main__":
+    unittest.main()
