@@ -33,6 +33,8 @@ class Door:
             "metamerEngineApply": (_DOUBLE, [_HANDLE, _HANDLE, _HANDLE, _SIZE]),
             "metamerEngineDiagnostics": (None, [_HANDLE, _HANDLE]),
             "metamerEngineLargestGain": (_DOUBLE, [_HANDLE, _HANDLE, _SIZE]),
+            "metamerKnown": (None, [_HANDLE, _TEXT, _TEXT, _HANDLE, _SIZE, _HANDLE, _HANDLE]),
+            "metamerEngineFolds": (_DOUBLE, [_HANDLE, _HANDLE, _SIZE]),
             "metamerBuildMap": (_HANDLE, [_HANDLE, _DOUBLE]), "metamerMapClose": (None, [_HANDLE]),
             "metamerMapSize": (None, [_HANDLE, _HANDLE]),
             "metamerMapApply": (None, [_HANDLE, _HANDLE, _HANDLE, _SIZE]),
@@ -88,7 +90,7 @@ class Engine:
     meaning for these lights."""
 
     def __init__(self, door, source, destination, bands, prior=None, strength=1.0):
-        self.library = door.library
+        self.library, self.lights = door.library, (source.encode(), destination.encode())
         self.handle = self.library.metamerEngine(source.encode(), destination.encode(), bands,
                                                  prior.encode() if prior else None, strength)
         self.refused = self.handle is None
@@ -104,6 +106,14 @@ class Engine:
         seconds = self.library.metamerEngineApply(self.handle, _pointer(rgb), _pointer(result), len(rgb))
         return result, seconds
 
+    def known(self, reflectances):
+        """RGB of known reflectances (rows over 380 ... 780 nm) under the input light, and under the output light."""
+        reflectances = np.ascontiguousarray(reflectances, np.float64)
+        given, wanted = np.empty((len(reflectances), 3)), np.empty((len(reflectances), 3))
+        self.library.metamerKnown(self.handle, *self.lights, _pointer(reflectances), len(reflectances), _pointer(given),
+                                  _pointer(wanted))
+        return given, wanted
+
     def diagnostics(self):
         three = np.empty(3)
         self.library.metamerEngineDiagnostics(self.handle, _pointer(three))
@@ -112,6 +122,11 @@ class Engine:
     def largest_gain(self, rgb):
         rgb = _rows(rgb)
         return self.library.metamerEngineLargestGain(self.handle, _pointer(rgb), len(rgb))
+
+    def folds(self, rgb):
+        """Share of colours where the map of chromaticities folds."""
+        rgb = _rows(rgb)
+        return self.library.metamerEngineFolds(self.handle, _pointer(rgb), len(rgb))
 
 
 class Map:

@@ -3,6 +3,7 @@
 #include <hwy/highway.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -89,8 +90,9 @@ std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
 
 }  // namespace
 
-/// The transform between two lights of data/ in ACEScg at `bands`; null where the engine refuses it. `set`: reflectances
-/// of a prior of that strength, or null for smooth.
+/// The transform between two lights of data/ in ACEScg at `bands`; null where the engine refuses it. `set`:
+/// reflectances of a prior of that strength, of a data set on its own where the strength is negative, or null for
+/// smooth.
 extern "C" void* metamerEngine(const char* input, const char* output, int bands, const char* set, double strength) {
   try {
     const auto library = spectral::DataLibrary::openDefault();
@@ -98,11 +100,34 @@ extern "C" void* metamerEngine(const char* input, const char* output, int bands,
     recipe.input.illuminant = input;
     recipe.output.illuminant = output;
     if (set != nullptr) {
-      recipe.scene = {.kind = sip::ReferenceScene::Kind::Prior, .set = set, .strength = strength};
+      recipe.scene.kind = strength < 0 ? sip::ReferenceScene::Kind::Dataset : sip::ReferenceScene::Kind::Prior;
+      recipe.scene.set = set;
+      recipe.scene.strength = std::max(strength, 0.0);
     }
     return std::make_unique<sip::SpectralTransform>(sip::resolve(recipe, library), bands).release();
   } catch (const spectral::InputError&) {
     return nullptr;
+  }
+}
+
+/// Known reflectances (401 doubles each, 380 ... 780 nm): what the input pipeline makes of them in RGB, and what the
+/// output pipeline does. Transforms of two CIE 1931 observers only.
+extern "C" void metamerKnown(void* engine, const char* input, const char* output, const double* reflectances,
+                             std::size_t count, double* given, double* wanted) {
+  const auto* transform = static_cast<sip::SpectralTransform*>(engine);
+  const auto library = spectral::DataLibrary::openDefault();
+  const auto observer = library.observer("CIE 1931 2");
+  const auto source = sip::prepare({library.illuminant(input), {}, observer}, {}, observer);
+  const auto destination = sip::prepare({library.illuminant(output), {}, observer}, {}, observer);
+  const Eigen::Matrix3d rgbFromResponse =
+      transform->responseFromRgb().inverse() * source.white.cwiseInverse().asDiagonal();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Map<const spectral::DomainSamples> reflectance(reflectances + spectral::kDomainSize * i);
+    Eigen::Map<Eigen::Vector3d>(given + 3 * i) =
+        rgbFromResponse * (source.curves.transpose() * source.light.cwiseProduct(reflectance));
+    Eigen::Map<Eigen::Vector3d>(wanted + 3 * i) =
+        transform->rgbFromOutputResponse() *
+        (destination.curves.transpose() * destination.light.cwiseProduct(reflectance));
   }
 }
 
@@ -137,6 +162,16 @@ extern "C" double metamerEngineLargestGain(void* engine, const double* rgb, std:
         std::max(largest, transform->linearise(Eigen::Map<const Eigen::Vector3d>(rgb + 3 * i)).matrix.operatorNorm());
   }
   return largest / transform->diagnostics().matrixGain;
+}
+
+/// Share of colours where the map of chromaticities turns over (negative determinant: it folds), and the largest gain.
+extern "C" double metamerEngineFolds(void* engine, const double* rgb, std::size_t count) {
+  const auto* transform = static_cast<sip::SpectralTransform*>(engine);
+  std::size_t folds = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    folds += transform->linearise(Eigen::Map<const Eigen::Vector3d>(rgb + 3 * i)).matrix.determinant() < 0.0 ? 1 : 0;
+  }
+  return static_cast<double>(folds) / static_cast<double>(count);
 }
 
 extern "C" void* metamerBuildMap(void* engine, double tolerance) {

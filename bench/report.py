@@ -21,6 +21,8 @@ SECTIONS = {
     "transforms": ("Error against time, every representation", "accuracy"),
     "bands": ("How many bands", "accuracy"),
     "recovery": ("Other recoveries in the same pipeline", "accuracy"),
+    "matching": ("Matching shots: robust or accurate", "accuracy"),
+    "validation": ("The loop closed", "accuracy"),
     "stability": ("Numerical stability", "accuracy"),
     "hard_cases": ("Hard cases", "accuracy"),
     "growth": ("How cost grows", "performance"),

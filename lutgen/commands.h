@@ -12,5 +12,6 @@ void addList(CLI::App& application);
 void addConfig(CLI::App& application);
 void addCompare(CLI::App& application);
 void addStage(CLI::App& application);
+void addValidate(CLI::App& application);
 
 }  // namespace metamer::lutgen

@@ -34,6 +34,7 @@ int main(int argumentCount, char** arguments) {
   metamer::lutgen::addConfig(application);
   metamer::lutgen::addCompare(application);
   metamer::lutgen::addStage(application);
+  metamer::lutgen::addValidate(application);
   try {
     application.parse(argumentCount, arguments);
     std::cout.flush();

@@ -74,7 +74,8 @@ std::vector<Eigen::Vector3d> clip(const std::vector<Eigen::Vector3d>& rays, cons
 struct SpectralTransform::State {
   spectral::RgbSpace space;
   bool identity = false;
-  Eigen::Matrix3d responseFromRgb;   ///< white-normalised input response
+  Eigen::Matrix3d responseFromRgb;  ///< white-normalised input response
+  Eigen::Matrix3d rgbFromOutputResponse;
   Eigen::Matrix3Xd rgbFromSpectrum;  ///< 3 x B: output RGB from reflectance
   Eigen::MatrixX3d spectrumToRgb;    ///< its transpose: columns, for fast sums
   Eigen::Matrix3Xd basis;            ///< directions the input light tells apart
@@ -158,8 +159,8 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   }
   const Eigen::Matrix3d rgbFromOutputXyz =
       exposure * spec.space.rgbFromXyz() * cones.inverse() * gain.matrix().asDiagonal() * cones;
-  state->rgbFromSpectrum =
-      rgbFromOutputXyz * output.xyzFromResponse * bandWeights(output.light, output.curves, bandCount);
+  state->rgbFromOutputResponse = rgbFromOutputXyz * output.xyzFromResponse;
+  state->rgbFromSpectrum = state->rgbFromOutputResponse * bandWeights(output.light, output.curves, bandCount);
 
   state->spectrumToRgb = state->rgbFromSpectrum.transpose();
 
@@ -304,6 +305,9 @@ Eigen::Matrix3d SpectralTransform::unconstrainedMatrix() const {
 }
 Eigen::Matrix3d SpectralTransform::responseFromRgb() const {
   return m_state->responseFromRgb;
+}
+Eigen::Matrix3d SpectralTransform::rgbFromOutputResponse() const {
+  return m_state->rgbFromOutputResponse;
 }
 Eigen::Vector3d SpectralTransform::whiteXyz() const {
   return m_state->space.whiteXyz();

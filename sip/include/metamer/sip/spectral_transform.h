@@ -84,6 +84,9 @@ class SpectralTransform {
   std::vector<Eigen::Vector3d> linearConeCorners() const;
   /// White-normalised input response from RGB: (1,1,1) is (1,1,1).
   Eigen::Matrix3d responseFromRgb() const;
+  /// RGB from the output pipeline's response (of PreparedPipeline, before any reflectance is guessed): what a scene
+  /// known by its spectra should become.
+  Eigen::Matrix3d rgbFromOutputResponse() const;
   /// White of the working space, Y = 1.
   Eigen::Vector3d whiteXyz() const;
 
