@@ -70,4 +70,13 @@ Eigen::Matrix3d xyzFromResponseUnder(const spectral::Spectrum& light, const spec
   return sip::prepare({light, {}, observer}, training, library.observer(kStandardObserver)).xyzFromResponse;
 }
 
+spectral::Spectrum lightOf(const spectral::DomainSamples& power) {
+  std::vector<double> wavelengthsNm;
+  for (int nm = spectral::kDomainStartNm; nm <= spectral::kDomainEndNm; ++nm) {
+    wavelengthsNm.push_back(nm);
+  }
+  return {"mixed light", spectral::SpectralQuantity::SpectralPowerDistribution, wavelengthsNm,
+          std::vector<double>(power.begin(), power.end())};
+}
+
 }  // namespace metamer::lutgen

@@ -22,6 +22,9 @@ struct Fixture {
 /// @throws spectral::InputError
 Fixture readFixture(const std::vector<std::string>& texts, const spectral::DataLibrary& library);
 
+/// A mixed light as a spectrum.
+spectral::Spectrum lightOf(const spectral::DomainSamples& power);
+
 /// Limits as a command line gives them: none, one for all, or one an emitter.
 struct FixtureLimits {
   std::vector<double> largest;

@@ -11,6 +11,9 @@ void addStage(CLI::App& application) {
   addStageMatch(*stage);
   addStageSelect(*stage);
   addStageEnvironment(*stage);
+  addStageSample(*stage);
+  addStageLinearity(*stage);
+  addStageEmitter(*stage);
 }
 
 }  // namespace metamer::lutgen

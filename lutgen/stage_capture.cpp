@@ -102,6 +102,8 @@ void readSpectra(const sip::StageDescription& stage, const spectral::DataLibrary
   capture.wall.blackLevel = black;
 
   capture.xyzFromCamera = xyzFromResponseUnder(target, camera, library);
+  capture.cameraWhite = capture.wall.environmentWhite;
+  capture.spectra = CaptureSpectra{spectra.emitters, target};
   capture.colourSpace = "camera RGB of " + named.camera + " under " + named.target;
 }
 
@@ -118,16 +120,20 @@ void keepPatches(const std::vector<std::string>& unwanted, StageCapture& capture
   std::copy_n(aligned.charts.begin(), 3, capture.wall.charts.begin());
 }
 
-void readCharts(const sip::StageDescription& stage, const spectral::DataLibrary& library, StageCapture& capture) {
+void readCharts(const sip::StageDescription& stage, const spectral::DataLibrary& library,
+                const std::string& checkPictures, StageCapture& capture) {
   for (std::size_t k = 0; k < 3; ++k) {
     capture.wall.cameraFromWall.col(static_cast<Eigen::Index>(k)) = readPrimary(stage.primaries[k]);
   }
-  const ChartReader reader(stage.layout, library, stage.folder);
+  const ChartReader reader(stage.layout, library, stage.folder, stage.saturation);
+  const auto checkPicture = [&](const std::string& name) {
+    return checkPictures.empty() ? std::filesystem::path() : std::filesystem::path(checkPictures + "_" + name + ".png");
+  };
   std::vector<sip::ChartTable> tables;
-  for (const sip::StageChart& chart : stage.charts) {
-    tables.push_back(reader.read(chart, capture.notes));
+  for (std::size_t k = 0; k < 3; ++k) {
+    tables.push_back(reader.read(stage.charts[k], capture.notes, checkPicture(kChannels[k])));
   }
-  tables.push_back(reader.read(stage.target, capture.notes));
+  tables.push_back(reader.read(stage.target, capture.notes, checkPicture("target")));
   for (const sip::ChartTable& table : tables) {
     const auto negatives = (table.rgb.array() < 0).count();
     if (negatives > 0) {
@@ -159,18 +165,21 @@ int patchNamed(const std::vector<std::string>& names, const std::string& name) {
   return starting.size() == 1 ? starting.front() : -1;
 }
 
-StageCapture readCapture(const sip::StageDescription& stage, const spectral::DataLibrary& library) {
+StageCapture readCapture(const sip::StageDescription& stage, const spectral::DataLibrary& library,
+                         const std::string& checkPictures) {
   StageCapture capture;
+  capture.columns = stage.layout.columns;
   capture.wall.beta = sip::calibrationSquareBeta(stage.widthM, stage.heightM, stage.distanceM);
   capture.wall.blackLevel = stage.blackLevel;
   if (stage.spectra) {
     readSpectra(stage, library, capture);
     keepPatches(stage.excluded, capture);
   } else {
-    readCharts(stage, library, capture);
+    readCharts(stage, library, checkPictures, capture);
   }
   if (!stage.colourSpace.empty() || !stage.spectra) {
     capture.colourSpace = stage.colourSpace.empty() ? kAssumedSpace : stage.colourSpace;
+    capture.cameraWhite = Eigen::Vector3d::Ones();
     capture.xyzFromCamera = library.colourSpace(capture.colourSpace).linear.xyzFromRgb();
     if (stage.colourSpace.empty()) {
       capture.notes.push_back(std::string("colour_space is not given: colour differences take the camera's RGB for ") +

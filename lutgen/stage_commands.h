@@ -10,5 +10,8 @@ void addStageSolve(CLI::App& stage);
 void addStageMatch(CLI::App& stage);
 void addStageSelect(CLI::App& stage);
 void addStageEnvironment(CLI::App& stage);
+void addStageSample(CLI::App& stage);
+void addStageLinearity(CLI::App& stage);
+void addStageEmitter(CLI::App& stage);
 
 }  // namespace metamer::lutgen

@@ -67,16 +67,6 @@ sip::MatchSystem systemOf(sip::MatchMethod method, const MatchOptions& options, 
       options.weights == "relative" ? sip::MatchWeights::Relative : sip::MatchWeights::Absolute);
 }
 
-/// The mixed light as a spectrum.
-spectral::Spectrum lightOf(const spectral::DomainSamples& power) {
-  std::vector<double> wavelengthsNm;
-  for (int nm = spectral::kDomainStartNm; nm <= spectral::kDomainEndNm; ++nm) {
-    wavelengthsNm.push_back(nm);
-  }
-  return {"mixed light", spectral::SpectralQuantity::SpectralPowerDistribution, wavelengthsNm,
-          std::vector<double>(power.begin(), power.end())};
-}
-
 void match(const MatchOptions& options) {
   const auto library = spectral::DataLibrary::openDefault();
   const sip::MatchMethod method = sip::matchMethodFromName(options.method);

@@ -3,8 +3,10 @@
 
 #include <array>
 
+#include "fixture.h"
 #include "formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_similarity_index.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -36,6 +38,18 @@ sip::WallOptions optionsOf(const sip::StageDescription& stage, const StageCaptur
     throw InputError("", "q.skin_weight", "0", "leaves no patch with a weight");
   }
   return options;
+}
+
+/// Of the wall's mixed light to the target's; nothing where the wall is dark.
+std::optional<double> similarityOf(const CaptureSpectra& spectra, const Eigen::Vector3d& drive) {
+  spectral::DomainSamples mixed = spectral::DomainSamples::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    mixed += drive[static_cast<Eigen::Index>(k)] * spectra.emitters[k];
+  }
+  if (!(mixed.maxCoeff() > 0)) {
+    return std::nullopt;
+  }
+  return spectral::spectralSimilarityIndex(lightOf(mixed), spectra.target);
 }
 
 /// What the wall cannot do, and why.
@@ -78,10 +92,11 @@ void addReachNotes(StageResult& result) {
 
 }  // namespace
 
-StageResult solveStage(const sip::StageDescription& stage, const spectral::DataLibrary& library) {
+StageResult solveStage(const sip::StageDescription& stage, const spectral::DataLibrary& library,
+                       const std::string& checkPictures) {
   StageResult result;
   result.name = stage.name;
-  result.capture = readCapture(stage, library);
+  result.capture = readCapture(stage, library, checkPictures);
   try {
     result.solution = sip::solveWall(result.capture.wall, optionsOf(stage, result.capture));
   } catch (const InputError& error) {
@@ -95,6 +110,10 @@ StageResult solveStage(const sip::StageDescription& stage, const spectral::DataL
     whiteRgb = target.col(white);
     const double predictedGreen = solution.predicted(1, white);
     result.exposure = predictedGreen > 0 && target(1, white) > 0 ? target(1, white) / predictedGreen : 1;
+  }
+  result.whiteRgb = whiteRgb;
+  if (result.capture.spectra) {
+    result.spectralSimilarity = similarityOf(*result.capture.spectra, solution.environmentDrive);
   }
   result.differencesBefore =
       sip::chartDifferences(result.exposure * solution.predicted, target, result.capture.xyzFromCamera, whiteRgb);
@@ -148,6 +167,9 @@ Json toJson(const StageResult& result) {
   };
   json["dE_before"] = summary(result.before);
   json["dE_after"] = summary(result.after);
+  if (result.spectralSimilarity) {
+    json["SSI"] = *result.spectralSimilarity;
+  }
   if (!result.capture.skinPatches.empty()) {
     Json names = Json::array();
     for (const int patch : result.capture.skinPatches) {

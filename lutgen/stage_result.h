@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,16 @@ struct StageResult {
   std::vector<double> differencesBefore;  ///< CIEDE2000 of P (exposed) against T
   std::vector<double> differencesAfter;   ///< CIEDE2000 of Q P against T
   sip::DifferenceSummary before, after, skinBefore, skinAfter;
-  std::vector<std::string> notes;  ///< of the input, and what is out of reach and why
+  Eigen::Vector3d whiteRgb{1, 1, 1};         ///< what counted as white in the differences
+  std::optional<double> spectralSimilarity;  ///< SSI of the wall's white drive to the target, where spectra are known
+  std::vector<std::string> notes;            ///< of the input, and what is out of reach and why
 };
 
-/// Reads and solves. @throws spectral::InputError, naming the stage file
-StageResult solveStage(const sip::StageDescription& stage, const spectral::DataLibrary& library);
+/// Reads and solves.
+/// @param checkPictures  prefix of pictures with the sampled squares; empty: none
+/// @throws spectral::InputError, naming the stage file
+StageResult solveStage(const sip::StageDescription& stage, const spectral::DataLibrary& library,
+                       const std::string& checkPictures = {});
 
 /// The stage file for programs.
 Json toJson(const StageResult& result);
