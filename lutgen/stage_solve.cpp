@@ -47,7 +47,7 @@ void solve(const SolveOptions& options) {
   const auto library = spectral::DataLibrary::openDefault();
   const StageResult result = solveStage(sip::readStage(options.stage), library, options.checkPictures);
   if (!options.config.empty()) {
-    writeText(options.config, ocio::stageConfigText(matricesOf(result), library, options.base));
+    writeText(options.config, ocio::stageConfigText(matricesOf(result), library, options.config, options.base));
   }
   if (!options.luts.empty()) {
     ocio::writeStageFiles(matricesOf(result), options.luts);

@@ -240,9 +240,11 @@ ConfigDocument::ConfigDocument(std::string text, std::string where)
       m_facts(readConfigFacts(parseConfigYaml(m_text, m_where), m_where)) {}
 
 std::string ConfigDocument::with(const std::string& looks, const std::string& namedTransforms,
-                                 const std::string& searchFolder) const {
+                                 const std::string& searchFolder, const std::string& colourSpaces) const {
   const YAML::Node before = parseConfigYaml(m_text, m_where);
   Editor editor(m_text, m_where, before);
+  // First: items of the document's last list go before keys that are new behind it.
+  editor.addItems("colorspaces", colourSpaces);
   editor.addItems("looks", looks);
   editor.addItems("named_transforms", namedTransforms);
   if (!searchFolder.empty()) {
@@ -250,7 +252,8 @@ std::string ConfigDocument::with(const std::string& looks, const std::string& na
   }
   std::string result = editor.text();
   const std::map<std::string, std::size_t> added = {{"looks", YAML::Load(looks).size()},
-                                                    {"named_transforms", YAML::Load(namedTransforms).size()}};
+                                                    {"named_transforms", YAML::Load(namedTransforms).size()},
+                                                    {"colorspaces", YAML::Load(colourSpaces).size()}};
   if (!isExtension(before, parseConfigYaml(result, m_where), added, searchFolder)) {
     throw InputError(
         m_where, "config", "",

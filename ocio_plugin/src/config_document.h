@@ -37,12 +37,15 @@ class ConfigDocument {
 
   const ConfigFacts& facts() const { return m_facts; }
 
-  /// The text with looks, named transforms and a folder at the end of the search path added. Everything else is there
+  const std::string& text() const { return m_text; }
+
+  /// The text with looks, named transforms, colour spaces and a folder at the end of the search path added. Everything else is there
   /// byte for byte, and the result is checked to be the same document but for them.
-  /// @param looks, namedTransforms  YAML block sequences ("- !<Look>\n  name: ..."), empty for none
-  /// @param searchFolder            empty: the search path stays
+  /// @param looks, namedTransforms, colourSpaces  YAML block sequences ("- !<Look>\n  name: ..."), empty for none
+  /// @param searchFolder                          empty: the search path stays
   /// @throws spectral::InputError where the text is written in a way that cannot be added to
-  std::string with(const std::string& looks, const std::string& namedTransforms, const std::string& searchFolder) const;
+  std::string with(const std::string& looks, const std::string& namedTransforms, const std::string& searchFolder,
+                   const std::string& colourSpaces = {}) const;
 
  private:
   std::string m_text;

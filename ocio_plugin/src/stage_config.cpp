@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/ocio/stage_config.h"
 
-#include <Eigen/LU>
-#include <sstream>
+#include <yaml-cpp/yaml.h>
 
-#include "matrix_operator.h"
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "config_base.h"
+#include "config_document.h"
+#include "config_facts.h"
+#include "config_items.h"
+#include "config_loader.h"
 #include "metamer/spectral/chromatic_adaptation.h"
 #include "metamer/spectral/input_error.h"
+#include "new_config.h"
 
 namespace metamer::ocio {
 namespace {
@@ -16,167 +25,162 @@ using spectral::InputError;
 constexpr const char* kInterchangeRole = "aces_interchange";
 constexpr const char* kInterchangeSpace = "ACES2065-1";
 constexpr const char* kFamily = "LED stage";
-constexpr const char* kDisplay = "sRGB";
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), result.ptr};
+}
 
 /// Adapted, so that the camera's white is neutral.
-Eigen::Matrix3d interchangeFromCamera(const StageMatrices& stage, const spectral::DataLibrary& library) {
+Eigen::Matrix3d acesFromCamera(const StageMatrices& stage, const spectral::DataLibrary& library) {
   const spectral::RgbSpace aces = library.colourSpace(kInterchangeSpace).linear;
   const Eigen::Vector3d white = stage.whiteXyz / stage.whiteXyz.y();
   return aces.rgbFromXyz() * spectral::adaptXyz(spectral::ChromaticAdaptation::Bradford, white, aces.whiteXyz()) *
          stage.xyzFromCamera;
 }
 
-/// To ACES2065-1 from the config's reference; empty where they are the same.
-OCIO::TransformRcPtr interchangeFromReference(const OCIO::ConstConfigRcPtr& config) {
-  const auto space = config->getColorSpace(kInterchangeRole);
-  if (const auto from = space->getTransform(OCIO::COLORSPACE_DIR_FROM_REFERENCE)) {
-    return from->createEditableCopy();
-  }
-  if (const auto to = space->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE)) {
-    auto inverse = to->createEditableCopy();
-    inverse->setDirection(OCIO::GetInverseTransformDirection(inverse->getDirection()));
-    return inverse;
-  }
-  return nullptr;
+bool isReference(const YAML::Node& space) {
+  constexpr std::array<const char*, 4> kKeys = {"to_reference", "from_reference", "to_scene_reference",
+                                                "from_scene_reference"};
+  return std::none_of(kKeys.begin(), kKeys.end(), [&](const char* key) { return space[key].IsDefined(); });
 }
 
-OCIO::ColorSpaceRcPtr spaceOf(const std::string& name, const char* encoding, const std::string& description) {
-  auto space = OCIO::ColorSpace::Create();
-  space->setName(name.c_str());
-  space->setFamily(kFamily);
-  space->setBitDepth(OCIO::BIT_DEPTH_F32);
-  space->setEncoding(encoding);
-  space->setDescription(description.c_str());
-  return space;
-}
+/// Colour spaces between which the config's reference becomes ACES2065-1; empty where it is that.
+struct Interchange {
+  std::string reference;
+  std::string aces;
+};
 
-/// From the reference through ACES2065-1 and the camera's RGB to what `last` makes of it.
-OCIO::GroupTransformRcPtr fromReference(const OCIO::ConstConfigRcPtr& config, const Eigen::Matrix3d& cameraFromAces,
-                                        const OCIO::GroupTransformRcPtr& last) {
-  auto group = OCIO::GroupTransform::Create();
-  if (const auto first = interchangeFromReference(config)) {
-    group->appendTransform(first);
-  }
-  group->appendTransform(matrixOperator(cameraFromAces));
-  for (int k = 0; last && k < last->getNumTransforms(); ++k) {
-    group->appendTransform(last->getTransform(k)->createEditableCopy());
-  }
-  return group;
-}
-
-/// A config with little else in it.
-OCIO::ConfigRcPtr newConfig(const StageMatrices& stage, const spectral::DataLibrary& library) {
-  auto config = OCIO::Config::Create();
-  config->setMajorVersion(2);
-  config->setMinorVersion(0);
-  config->setName(stage.name.c_str());
-  config->setDescription(("LED stage " + stage.name + ", by metamer").c_str());
-  auto aces = spaceOf(kInterchangeSpace, "scene-linear", "Academy Color Encoding Specification");
-  aces->setFamily("ACES");
-  config->addColorSpace(aces);
-  const spectral::RgbSpace acesRgb = library.colourSpace(kInterchangeSpace).linear;
-  const spectral::RgbSpace cgRgb = library.colourSpace("ACEScg").linear;
-  auto cg = spaceOf("ACEScg", "scene-linear", "Linear, AP1 primaries");
-  cg->setFamily("ACES");
-  cg->setTransform(matrixOperator(acesRgb.rgbFromXyz() * cgRgb.xyzFromRgb()), OCIO::COLORSPACE_DIR_TO_REFERENCE);
-  config->addColorSpace(cg);
-  auto raw = spaceOf("Raw", "data", "Values as they are");
-  raw->setFamily("Utility");
-  raw->setIsData(true);
-  config->addColorSpace(raw);
-
-  const spectral::RgbSpace rec709 = library.colourSpace("Rec.709").linear;
-  auto display = spaceOf(kDisplay, "sdr-video", "sRGB without tone mapping");
-  display->setFamily("Display");
-  auto toDisplay = OCIO::GroupTransform::Create();
-  toDisplay->appendTransform(matrixOperator(
-      rec709.rgbFromXyz() *
-      spectral::adaptXyz(spectral::ChromaticAdaptation::Bradford, acesRgb.whiteXyz(), rec709.whiteXyz()) *
-      acesRgb.xyzFromRgb()));
-  auto curve = OCIO::ExponentWithLinearTransform::Create();
-  constexpr double kGamma[4] = {2.4, 2.4, 2.4, 1};
-  constexpr double kOffset[4] = {0.055, 0.055, 0.055, 0};
-  curve->setGamma(kGamma);
-  curve->setOffset(kOffset);
-  curve->setDirection(OCIO::TRANSFORM_DIR_INVERSE);
-  toDisplay->appendTransform(curve);
-  display->setTransform(toDisplay, OCIO::COLORSPACE_DIR_FROM_REFERENCE);
-  config->addColorSpace(display);
-
-  config->setRole(kInterchangeRole, kInterchangeSpace);
-  config->setRole("scene_linear", "ACEScg");
-  config->setRole("default", "Raw");
-  config->setRole("data", "Raw");
-  config->addDisplayView(kDisplay, "Post-corrected", kDisplay, (stage.name + " post-correction").c_str());
-  config->addDisplayView(kDisplay, "As recorded", kDisplay, "");
-  config->addDisplayView(kDisplay, "Raw", "Raw", "");
-  return config;
-}
-
-OCIO::ConfigRcPtr baseConfig(const std::filesystem::path& base) {
-  try {
-    const auto config = OCIO::Config::CreateFromFile(base.string().c_str())->createEditableCopy();
-    if (!config->hasRole(kInterchangeRole)) {
-      throw InputError(base.string(), "role", kInterchangeRole,
-                       "is missing; add it to the config: it names the config's ACES2065-1");
+Interchange interchangeOf(const ConfigDocument& document, const std::string& where) {
+  const ConfigFacts& facts = document.facts();
+  const std::string aces = *facts.space(facts.roles.at(kInterchangeRole));
+  const YAML::Node root = parseConfigYaml(document.text(), where);
+  std::string reference;
+  for (const YAML::Node& space : root["colorspaces"]) {
+    const std::string name = space["name"].as<std::string>("");
+    if (name == aces && isReference(space)) {
+      return {};
     }
-    return config;
-  } catch (const OCIO::Exception& error) {
-    throw InputError(base.string(), "config", "", std::string("cannot be read: ") + error.what());
+    if (reference.empty() && isReference(space) && facts.dataSpaces.count(name) == 0) {
+      reference = name;
+    }
   }
+  if (reference.empty()) {
+    throw InputError(where, "colorspaces", aces,
+                     "is not the config's reference, and no colour space is; add one without transforms");
+  }
+  return {reference, aces};
 }
 
-void refuseTaken(const OCIO::ConfigRcPtr& config, const std::filesystem::path& base, const std::string& name) {
-  if (config->getColorSpace(name.c_str()) || config->getLook(name.c_str())) {
-    throw InputError(base.string(), "name", name, "is in the base config already; give the stage another name");
+void emitRow(YAML::Emitter& yaml, const Eigen::Matrix3d& matrix) {
+  yaml << YAML::Flow << YAML::BeginSeq;
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) {
+      yaml << number(row < 3 && column < 3 ? matrix(row, column) : static_cast<double>(row == column));
+    }
+  }
+  yaml << YAML::EndSeq;
+}
+
+void emitMatrix(YAML::Emitter& yaml, const Eigen::Matrix3d& matrix, const Eigen::Vector3d& offset) {
+  yaml << YAML::VerbatimTag("MatrixTransform") << YAML::Flow << YAML::BeginMap << YAML::Key << "matrix" << YAML::Value;
+  emitRow(yaml, matrix);
+  if (!offset.isZero(0)) {
+    yaml << YAML::Key << "offset" << YAML::Value << YAML::Flow << YAML::BeginSeq << number(offset[0])
+         << number(offset[1]) << number(offset[2]) << "0" << YAML::EndSeq;
+  }
+  yaml << YAML::EndMap;
+}
+
+/// Wall drives from the camera's RGB.
+struct Wall {
+  Eigen::Matrix3d matrix;
+  Eigen::Vector3d offset;
+};
+
+std::string spaceYaml(const std::string& name, const std::string& description, const Interchange& interchange,
+                      const Eigen::Matrix3d& cameraFromAces, const Wall* wall) {
+  YAML::Emitter yaml;
+  yaml << YAML::BeginSeq << YAML::VerbatimTag("ColorSpace") << YAML::Block << YAML::BeginMap;
+  const auto pair = [&yaml](const char* key, const std::string& value) {
+    yaml << YAML::Key << key << YAML::Value << value;
+  };
+  pair("name", name);
+  pair("family", kFamily);
+  pair("bitdepth", "32f");
+  pair("description", description);
+  pair("isdata", "false");
+  pair("encoding", "scene-linear");
+  yaml << YAML::Key << "from_scene_reference" << YAML::Value << YAML::VerbatimTag("GroupTransform") << YAML::Block
+       << YAML::BeginMap << YAML::Key << "children" << YAML::Value << YAML::Block << YAML::BeginSeq;
+  if (!interchange.reference.empty()) {
+    yaml << YAML::VerbatimTag("ColorSpaceTransform") << YAML::Flow << YAML::BeginMap;
+    pair("src", interchange.reference);
+    pair("dst", interchange.aces);
+    yaml << YAML::EndMap;
+  }
+  emitMatrix(yaml, cameraFromAces, Eigen::Vector3d::Zero());
+  if (wall != nullptr) {
+    emitMatrix(yaml, wall->matrix, wall->offset);
+    yaml << YAML::VerbatimTag("RangeTransform") << YAML::Flow << YAML::BeginMap;
+    pair("min_in_value", "0");
+    pair("min_out_value", "0");
+    yaml << YAML::EndMap;
+  }
+  yaml << YAML::EndSeq << YAML::EndMap << YAML::EndMap << YAML::EndSeq;
+  return std::string(yaml.c_str()) + "\n";
+}
+
+void check(const std::string& name, const ConfigFacts& facts, const std::string& where) {
+  if (name.find_first_of(",:|/\\%$+\"\n") != std::string::npos || name.front() == '-' || name.front() == ' ') {
+    throw InputError("stage", "name", name,
+                     "cannot be part of a look's name: leave out , : | / \\ % $ + \" and a leading -");
+  }
+  if (facts.taken.count(lowerCase(name)) != 0 || facts.looks.count(lowerCase(name)) != 0) {
+    throw InputError(where, "name", name, "is in the config already; give the stage another name");
   }
 }
 
 }  // namespace
 
 std::string stageConfigText(const StageMatrices& stage, const spectral::DataLibrary& library,
-                            const std::filesystem::path& base) {
-  const auto config = base.empty() ? newConfig(stage, library) : baseConfig(base);
+                            const std::filesystem::path& file, const std::filesystem::path& base) {
+  const std::string where = base.empty() ? file.string() : base.string();
+  const ConfigDocument document =
+      base.empty() ? ConfigDocument(newConfigText(stage.name, "LED stage " + stage.name + ", by metamer", "", library),
+                                    file.string())
+                   : openBaseConfig(base, file);
   const std::string camera = stage.name + " camera";
   const std::string outOfFrustum = stage.name + " wall out of frustum";
   const std::string inFrustum = stage.name + " wall in frustum";
-  const std::string correction = stage.name + " post-correction";
-  for (const std::string& name : {camera, outOfFrustum, inFrustum, correction}) {
-    refuseTaken(config, base, name);
+  const ConfigItem correction{stage.name + " post-correction",
+                              camera,
+                              camera,
+                              kFamily,
+                              "scene-linear",
+                              "Correction of what the camera recorded on the stage (Q)",
+                              {ConfigStep(stage.correctedFromCamera)}};
+  for (const std::string& name : {camera, outOfFrustum, inFrustum, correction.name}) {
+    check(name, document.facts(), where);
   }
-  const Eigen::Matrix3d cameraFromAces = interchangeFromCamera(stage, library).inverse();
-
-  auto cameraSpace = spaceOf(camera, "scene-linear", "The camera's linear RGB, as recorded");
-  cameraSpace->setTransform(fromReference(config, cameraFromAces, nullptr), OCIO::COLORSPACE_DIR_FROM_REFERENCE);
-  config->addColorSpace(cameraSpace);
-  auto out = spaceOf(outOfFrustum, "scene-linear",
-                     "Linear drives of the wall outside the camera's view (M); put the panel's own curve behind it");
-  out->setTransform(fromReference(config, cameraFromAces, outOfFrustumTransform(stage)),
-                    OCIO::COLORSPACE_DIR_FROM_REFERENCE);
-  config->addColorSpace(out);
-  auto in =
-      spaceOf(inFrustum, "scene-linear",
-              "Linear drives of the wall in the camera's view (N and the black offset); put the panel's own curve "
-              "behind it");
-  in->setTransform(fromReference(config, cameraFromAces, inFrustumTransform(stage)),
-                   OCIO::COLORSPACE_DIR_FROM_REFERENCE);
-  config->addColorSpace(in);
-
-  auto look = OCIO::Look::Create();
-  look->setName(correction.c_str());
-  look->setProcessSpace(camera.c_str());
-  look->setTransform(postCorrectionTransform(stage));
-  look->setDescription("Correction of what the camera recorded on the stage (Q)");
-  config->addLook(look);
-
-  std::ostringstream text;
-  try {
-    config->validate();
-    config->serialize(text);
-  } catch (const OCIO::Exception& error) {
-    throw InputError(base.string(), "config", "", std::string("cannot be written: ") + error.what());
-  }
-  return std::move(text).str();
+  const Interchange interchange = interchangeOf(document, where);
+  const Eigen::Matrix3d cameraFromAces = acesFromCamera(stage, library).inverse();
+  const Wall out{stage.wallFromContent, Eigen::Vector3d::Zero()};
+  const Wall in{stage.frustumFromContent, stage.frustumOffset};
+  const std::string spaces =
+      spaceYaml(camera, "The camera's linear RGB, as recorded", interchange, cameraFromAces, nullptr) + "\n" +
+      spaceYaml(outOfFrustum,
+                "Linear drives of the wall outside the camera's view (M); put the panel's own curve behind it",
+                interchange, cameraFromAces, &out) +
+      "\n" +
+      spaceYaml(inFrustum,
+                "Linear drives of the wall in the camera's view (N and the black offset); put the panel's own curve "
+                "behind it",
+                interchange, cameraFromAces, &in);
+  std::string text = document.with(looksYaml({correction}), "", "", spaces);
+  checkLoads(text, document.facts(), std::filesystem::absolute(file).parent_path(), {}, where);
+  return text;
 }
 
 }  // namespace metamer::ocio

@@ -83,9 +83,10 @@ class Outputs(LutgenTest):
         self.solve("--config", self.folder / "wall.ocio")
         config = ocio.Config.CreateFromFile(str(self.folder / "wall.ocio"))
         self.judge(config, "ACES2065-1")
-        self.assertEqual((config.getMajorVersion(), config.getMinorVersion()), (2, 0))
-        for view in config.getViews("sRGB"):
-            config.getProcessor(ocio.DisplayViewTransform(src="hangar camera", display="sRGB", view=view))
+        self.assertEqual((config.getMajorVersion(), config.getMinorVersion()), (2, 1))
+        for display in config.getDisplays():
+            for view in config.getViews(display):
+                config.getProcessor(ocio.DisplayViewTransform(src="hangar camera", display=display, view=view))
 
     def test_base_config(self):
         base_config(self.folder / "base.ocio")
@@ -93,6 +94,9 @@ class Outputs(LutgenTest):
         config = ocio.Config.CreateFromFile(str(self.folder / "wall.ocio"))
         self.judge(config, "aces")
         self.assertIn("lin_rec709", [space.getName() for space in config.getColorSpaces()])
+        kept = (self.folder / "base.ocio").read_text().splitlines()
+        written = iter((self.folder / "wall.ocio").read_text().splitlines())
+        self.assertTrue(all(line in written or line.strip() in ("looks:", "looks: []", "") for line in kept))
         # A second stage beside the first; the same one again is refused.
         self.file.write_text(self.file.read_text().replace("hangar", "street"))
         self.solve("--config", self.folder / "both.ocio", "--base", self.folder / "wall.ocio")
@@ -102,6 +106,13 @@ class Outputs(LutgenTest):
         self.assertFails("stage", "solve", self.file, "-o", self.folder / "again.json", "--config",
                          self.folder / "again.ocio", "--base", self.folder / "both.ocio",
                          says=["street camera", "already"])
+
+    def test_newest_base(self):
+        """A profile that the OCIO metamer is built against does not know, its reference ACES2065-1."""
+        base = ocio.Config.CreateFromBuiltinConfig("studio-config-latest")
+        (self.folder / "studio.ocio").write_text(base.serialize())
+        self.solve("--config", self.folder / "wall.ocio", "--base", self.folder / "studio.ocio")
+        self.judge(ocio.Config.CreateFromFile(str(self.folder / "wall.ocio")), "ACES2065-1")
 
     def test_base_without_interchange(self):
         config = ocio.Config.CreateRaw()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "metamer/ocio/stage_files.h"
 #include "metamer/spectral/data_library.h"
@@ -10,12 +11,13 @@ namespace metamer::ocio {
 
 /// A config for a solved wall: the colour spaces "NAME camera" (the camera's linear RGB), "NAME wall out of frustum"
 /// and "NAME wall in frustum" (linear wall drives, to be converted to), and the look "NAME post-correction" (process
-/// space "NAME camera"). A new config also has ACES2065-1, ACEScg, Raw and a plain sRGB display with and without the
-/// look; it has OCIO profile 2.0. A base config keeps all that it has.
-/// @param base  config to add to; empty: a new one
-/// @return its text
-/// @throws spectral::InputError: the base cannot be read, lacks the role aces_interchange, or has one of the names
+/// space "NAME camera"). They are added to a new config of profile 2.1, or to a base, whose text stays byte for byte.
+/// @param file  where the text will be written: files that a base names must be found from there too
+/// @param base  config to add to, of any profile from 2.0 on; empty: a new one
+/// @return its text, which the OCIO at hand has loaded where it knows the profile
+/// @throws spectral::InputError: the base cannot be read, lacks the role aces_interchange or a space for its reference,
+///         or has one of the names; a name that OCIO takes apart
 std::string stageConfigText(const StageMatrices& stage, const spectral::DataLibrary& library,
-                            const std::filesystem::path& base = {});
+                            const std::filesystem::path& file, const std::filesystem::path& base = {});
 
 }  // namespace metamer::ocio
