@@ -27,6 +27,13 @@ Json rowsToJson(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   return rows;
 }
 
+std::string relativeTo(const std::filesystem::path& report, const std::filesystem::path& file) {
+  if (file.empty()) {
+    return {};
+  }
+  return std::filesystem::proximate(file, std::filesystem::absolute(report).parent_path()).generic_string();
+}
+
 void writeText(const std::filesystem::path& file, const std::string& text) {
   ocio::PendingFile pending(file);
   pending.write(text);

@@ -17,6 +17,9 @@ Json rowsToJson(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 /// A number, null where it is not finite.
 Json numberToJson(double value);
 
+/// A file as a report beside it names it; empty for none.
+std::string relativeTo(const std::filesystem::path& report, const std::filesystem::path& file);
+
 /// Writes a file whole or not at all.
 /// @throws spectral::InputError
 void writeText(const std::filesystem::path& file, const std::string& text);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "chart_picture.h"
 #include "fixture.h"
-#include "formatted.h"
-#include "metamer/sip/chart_difference.h"
+#include "match_outcome.h"
 #include "metamer/sip/emitter_match.h"
-#include "metamer/sip/pipeline.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_similarity_index.h"
+#include "stage_capture.h"
 #include "stage_commands.h"
 #include "stage_json.h"
 
@@ -20,6 +22,10 @@ using spectral::InputError;
 struct MatchOptions {
   std::string target;
   std::vector<std::string> emitters;
+  std::vector<std::string> charts;
+  std::string colourSpace = "ACEScg";
+  std::string report;
+  std::string figure;
   std::string method = "mrm";
   std::string reflectances = "colorchecker";
   std::string observer = "CIE 1931 2";
@@ -51,6 +57,10 @@ Eigen::Matrix3Xd chartUnder(const spectral::DomainSamples& light, const sip::Obs
   return chart;
 }
 
+sip::MatchWeights weightsOf(const MatchOptions& options) {
+  return options.weights == "relative" ? sip::MatchWeights::Relative : sip::MatchWeights::Absolute;
+}
+
 sip::MatchSystem systemOf(sip::MatchMethod method, const MatchOptions& options, const Fixture& fixture,
                           const spectral::DomainSamples& target, const sip::ObserverCurves& curves,
                           const Materials& materials) {
@@ -62,70 +72,100 @@ sip::MatchSystem systemOf(sip::MatchMethod method, const MatchOptions& options, 
     case sip::MatchMethod::MetamericReflectance:
       break;
   }
-  return sip::reflectanceSystem(
-      fixture.columns, target, curves, materials.samples,
-      options.weights == "relative" ? sip::MatchWeights::Relative : sip::MatchWeights::Absolute);
+  return sip::reflectanceSystem(fixture.columns, target, curves, materials.samples, weightsOf(options));
 }
 
-void match(const MatchOptions& options) {
-  const auto library = spectral::DataLibrary::openDefault();
-  const sip::MatchMethod method = sip::matchMethodFromName(options.method);
+MatchOutcome matchSpectra(const MatchOptions& options, const spectral::DataLibrary& library) {
   const Fixture fixture = readFixture(options.emitters, library);
   const spectral::Spectrum target = library.illuminant(options.target);
   const spectral::Observer observer = library.observer(options.observer);
   const Materials materials = materialsOf(library.reflectances(options.reflectances));
   const sip::ObserverCurves curves = observer.onDomain();
   const spectral::DomainSamples light = target.onDomain();
-  const sip::DriveLimits limits = limitsOf(options.limits, fixture.names.size());
+  MatchOutcome outcome;
+  outcome.observer = observer.name;
+  outcome.reflectances = options.reflectances;
+  outcome.emitters = fixture.names;
+  outcome.models = fixture.models;
+  outcome.notes = fixture.notes;
+  outcome.match =
+      sip::solveMatch(systemOf(sip::matchMethodFromName(options.method), options, fixture, light, curves, materials),
+                      limitsOf(options.limits, fixture.names.size()));
+  const spectral::DomainSamples mixed = fixture.columns * outcome.match.drives;
+  outcome.patches = materials.names;
+  outcome.wanted = chartUnder(light, curves, materials);
+  outcome.made = chartUnder(mixed, curves, materials);
+  outcome.xyzFromResponse = xyzFromResponseUnder(target, observer, library);
+  outcome.white = curves.transpose() * light;
+  if (mixed.maxCoeff() > 0) {
+    outcome.spectralSimilarity = spectral::spectralSimilarityIndex(lightOf(mixed), target);
+  }
+  return outcome;
+}
 
-  const sip::EmitterMatch result =
-      sip::solveMatch(systemOf(method, options, fixture, light, curves, materials), limits);
-  const spectral::DomainSamples mixed = fixture.columns * result.drives;
+/// From pictures alone (section 2.5.2): the chart under each emitter, and under the target.
+MatchOutcome matchCharts(const MatchOptions& options, const spectral::DataLibrary& library) {
+  const sip::MatchMethod method = sip::matchMethodFromName(options.method);
+  if (method == sip::MatchMethod::Spectral) {
+    throw InputError("--method", "method", options.method, "needs spectra: give --emitters; charts do for mim and mrm");
+  }
+  const ChartReader reader({}, library, {});
+  MatchOutcome outcome;
+  std::vector<sip::ChartTable> tables;
+  for (const std::string& file : options.charts) {
+    tables.push_back(reader.read({file, {}}, outcome.notes));
+    outcome.emitters.push_back(std::filesystem::path(file).stem().string());
+    outcome.models.push_back(false);
+  }
+  tables.push_back(reader.read({options.target, {}}, outcome.notes));
+  auto aligned = sip::alignCharts(tables, std::nullopt);
+  if (aligned.names.empty()) {
+    throw InputError("--charts", "charts", "", "no patch is in all charts with values that can be used");
+  }
+  outcome.excluded = aligned.excluded;
+  outcome.patches = aligned.names;
+  outcome.wanted = aligned.charts.back();
+  aligned.charts.pop_back();
+  Eigen::Index brightest = 0;
+  outcome.wanted.row(1).maxCoeff(&brightest);
+  const int white = patchNamed(aligned.names, "white");
+  const Eigen::Index whitePatch = white >= 0 ? white : brightest;
+  sip::MatchSystem system;
+  if (method == sip::MatchMethod::MetamericIlluminant) {
+    std::vector<Eigen::Matrix3Xd> whites;
+    for (const Eigen::Matrix3Xd& chart : aligned.charts) {
+      whites.emplace_back(chart.col(whitePatch));
+    }
+    system = sip::chartSystem(whites, outcome.wanted.col(whitePatch));
+  } else {
+    system = sip::chartSystem(aligned.charts, outcome.wanted, weightsOf(options));
+  }
+  outcome.match = sip::solveMatch(system, limitsOf(options.limits, options.charts.size()));
+  outcome.made = Eigen::Matrix3Xd::Zero(3, outcome.wanted.cols());
+  for (std::size_t k = 0; k < aligned.charts.size(); ++k) {
+    outcome.made += outcome.match.drives[static_cast<Eigen::Index>(k)] * aligned.charts[k];
+  }
+  outcome.observer = "camera RGB taken for " + options.colourSpace;
+  outcome.reflectances = "charts";
+  outcome.xyzFromResponse = library.colourSpace(options.colourSpace).linear.xyzFromRgb();
+  outcome.white = outcome.wanted.col(whitePatch);
+  return outcome;
+}
 
-  const Eigen::Matrix3d xyzFromResponse = xyzFromResponseUnder(target, observer, library);
-  const Eigen::Matrix3Xd wanted = chartUnder(light, curves, materials);
-  const Eigen::Matrix3Xd made = chartUnder(mixed, curves, materials);
-  const auto differences = sip::chartDifferences(made, wanted, xyzFromResponse, curves.transpose() * light);
-  const sip::DifferenceSummary summary = sip::summaryOf(differences);
-
-  Json json;
-  json["target"] = options.target;
-  json["method"] = options.method;
-  json["observer"] = observer.name;
-  json["reflectances"] = options.reflectances;
-  json["emitters"] = fixture.names;
-  json["models"] = fixture.models;
-  json["drives"] = toJson(result.drives);
-  json["residual"] = numberToJson(result.relativeResidual);
-  json["residual_norm"] = numberToJson(result.residualNorm);
-  json["rank"] = result.rank;
-  json["condition"] = numberToJson(result.condition);
-  json["SSI"] =
-      mixed.maxCoeff() > 0 ? numberToJson(spectral::spectralSimilarityIndex(lightOf(mixed), target)) : Json(nullptr);
-  json["dE"] = {{"mean", numberToJson(summary.mean)}, {"max", numberToJson(summary.max)}};
-  json["patches"] = Json::array();
-  for (std::size_t i = 0; i < differences.size(); ++i) {
-    json["patches"].push_back({{"name", materials.names[i]}, {"dE", numberToJson(differences[i])}});
+void match(const MatchOptions& options) {
+  const auto library = spectral::DataLibrary::openDefault();
+  MatchOutcome outcome = options.charts.empty() ? matchSpectra(options, library) : matchCharts(options, library);
+  outcome.target = options.target;
+  outcome.method = options.method;
+  addReachNotes(outcome);
+  if (!options.figure.empty()) {
+    writeFigure(outcome, library, options.figure);
   }
-  std::vector<std::string> notes = fixture.notes;
-  for (const int dead : result.deadEmitters) {
-    notes.push_back("emitter '" + fixture.names[static_cast<std::size_t>(dead)] +
-                    "' gives no light to what is matched; its drive is 0");
+  if (!options.report.empty()) {
+    writeText(options.report, reportOf(outcome, relativeTo(options.report, options.figure)));
   }
-  if (method == sip::MatchMethod::MetamericIlluminant && result.relativeResidual > 1e-9) {
-    notes.push_back("the target's colour is out of the emitters' reach: no mixture within the limits has it");
-  }
-  json["notes"] = notes;
-  writeJson(options.output, json);
-
-  for (std::size_t i = 0; i < fixture.names.size(); ++i) {
-    std::cout << formatted("%-30s %.6g\n", fixture.names[i].c_str(), result.drives[static_cast<Eigen::Index>(i)]);
-  }
-  std::cout << formatted("residual %.6g, CIEDE2000 mean %.2f max %.2f\n", result.relativeResidual, summary.mean,
-                         summary.max);
-  for (const std::string& note : notes) {
-    std::cout << "note: " << note << '\n';
-  }
+  writeJson(options.output, toJson(outcome));
+  std::cout << summaryOf(outcome);
 }
 
 }  // namespace
@@ -133,19 +173,30 @@ void match(const MatchOptions& options) {
 void addStageMatch(CLI::App& stage) {
   CLI::App* command = stage.add_subcommand("match", "Drives of several emitters that reproduce a light");
   const auto options = std::make_shared<MatchOptions>();
-  command->add_option("--target", options->target, "Light to reproduce: NAME or FILE")->required();
-  command
+  command->add_option("--target", options->target, "Light to reproduce: NAME or FILE; with --charts, its chart (CSV)")
+      ->required();
+  CLI::App* emitters = command->add_option_group("emitters", "Spectra, or charts");
+  emitters
       ->add_option("--emitters", options->emitters,
                    "Spectra of the emitters at a drive of 1: FILE (one a column), NAME, led:PEAK:WIDTH or "
                    "phosphor:PUMP:PUMP_WIDTH:PEAK:WIDTH:PUMP_SHARE")
-      ->required()
       ->expected(1, 64);
+  emitters
+      ->add_option("--charts", options->charts,
+                   "In place of spectra: the chart under each emitter at a drive of 1 as a camera saw it, CSV "
+                   "(patch,R,G,B)")
+      ->expected(1, 64);
+  emitters->require_option(1);
   command->add_option("--method", options->method, "sim: the spectrum; mim: the light's colour; mrm: materials in it")
       ->check(CLI::IsMember({"sim", "mim", "mrm"}, CLI::ignore_case));
   command->add_option("--reflectances", options->reflectances, "Materials: SET or FILE; colorchecker by default");
   command->add_option("--observer", options->observer, "Eye or camera: NAME or FILE; CIE 1931 2 by default");
   command->add_option("--weights", options->weights, "Differences of mrm: absolute, or relative to the target's values")
       ->check(CLI::IsMember({"absolute", "relative"}));
+  command->add_option("--colour-space", options->colourSpace,
+                      "With --charts: what the camera's RGB is, for colour differences; ACEScg by default");
+  command->add_option("--report", options->report, "Markdown to write, for people");
+  command->add_option("--figure", options->figure, "PNG to write: the chart as squares in squares");
   addFixtureLimits(*command, options->limits);
   command->add_option("--json", options->output, "JSON to write: drives and residual")->required();
   command->callback([options] { match(*options); });

@@ -56,11 +56,7 @@ void solve(const SolveOptions& options) {
     writeFigure(result, library, options.figure);
   }
   if (!options.report.empty()) {
-    const std::string figure =
-        options.figure.empty()
-            ? std::string()
-            : std::filesystem::proximate(options.figure, std::filesystem::absolute(options.report).parent_path())
-                  .generic_string();
+    const std::string figure = relativeTo(options.report, options.figure);
     writeText(options.report, reportOf(result, figure));
   }
   writeJson(options.output, toJson(result));

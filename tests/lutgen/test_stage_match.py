@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import nnls
 
 from lutgen import LutgenTest
-from stage_physics import LIGHTS, chart, light, model, spectra, write_spectrum
+from stage_physics import LIGHTS, chart, light, model, spectra, write_chart, write_spectrum
 
 RGB = ["led:628:14", "led:525:24", "led:460:16"]
 WHITE = "phosphor:450:20:560:120:0.8"
@@ -63,6 +63,27 @@ class MatchTest(LutgenTest):
         np.testing.assert_allclose(ours["drives"], np.array(modelled["drives"]) / [1.0, 2.0, 0.5], rtol=1e-9)
         self.assertEqual(modelled["models"], [True] * 3)
         self.assertEqual(ours["models"], [False] * 3)
+
+    def test_charts_alone(self):
+        """The chart under each emitter and under the target, as an eye sees them: the same drives as from spectra."""
+        eye = np.stack(list(spectra("observers/cie_1931_2.csv").values())[:3], axis=1)
+        names, reflectances = chart()
+        files = []
+        for index, text in enumerate(SETS["RGBW"]):
+            files.append(self.folder / f"e{index}.csv")
+            write_chart(files[-1], names, reflectances * model(text) @ eye)
+        write_chart(self.folder / "target.csv", names, reflectances * light("A") @ eye)
+        measured = self.match("--target", "A", "--emitters", *SETS["RGBW"], "--method", "mrm")
+        ours = self.match("--target", self.folder / "target.csv", "--charts", *files, "--method", "mrm")
+        np.testing.assert_allclose(ours["drives"], measured["drives"], rtol=1e-9, atol=1e-9)
+        self.assertEqual(ours["emitters"], ["e0", "e1", "e2", "e3"])
+        white = self.match("--target", self.folder / "target.csv", "--charts", *files, "--method", "mim", "--report",
+                           self.folder / "r.md", "--figure", self.folder / "r.png")
+        made = sum(drive * (reflectances[18] * model(text)) @ eye for drive, text in zip(white["drives"], SETS["RGBW"]))
+        np.testing.assert_allclose(made, reflectances[18] * light("A") @ eye, rtol=1e-9)
+        self.assertIn("(r.png)", (self.folder / "r.md").read_text())
+        self.assertFails("stage", "match", "--target", "target.csv", "--charts", *files, "--method", "sim", "--json",
+                         "s.json", says=["sim", "needs spectra"])
 
     def test_more_emitters(self):
         """MRM's error falls with every emitter added, and MRM is never worse than MIM on the chart."""
