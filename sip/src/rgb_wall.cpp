@@ -54,6 +54,9 @@ void check(const WallCapture& capture, const WallOptions& options) {
                        "is a dead channel: every patch is black; check the panel and the capture");
     }
   }
+  if (!(capture.target.maxCoeff() > 0)) {
+    throw InputError("", "charts.target", "", "every patch is black; check the capture of the real place");
+  }
   if (!(capture.environmentWhite.maxCoeff() > 0)) {
     throw InputError("", "environment.white", text(capture.environmentWhite),
                      "holds no light; give what a white patch shows in the real place");
@@ -127,6 +130,10 @@ WallSolution solveWall(const WallCapture& capture, const WallOptions& options) {
   if (!(solution.predicted.norm() > 0)) {
     throw InputError("", "charts", "", "the predicted chart is black; check the charts against the environment");
   }
+  if (options.heldPatch >= 0 && !(solution.predicted.col(options.heldPatch).norm() > 0)) {
+    throw InputError("", "q.white_patch", capture.patchNames[static_cast<std::size_t>(options.heldPatch)],
+                     "is black on the stage; check the charts under the wall's channels");
+  }
   const Vector3d sizes = Eigen::JacobiSVD<Matrix3d>(solution.predicted * solution.predicted.transpose())
                              .singularValues()
                              .cwiseMax(0.0)
@@ -138,9 +145,6 @@ WallSolution solveWall(const WallCapture& capture, const WallOptions& options) {
   solution.corrected = solution.correctedFromCamera * solution.predicted;
 
   const Eigen::JacobiSVD<Matrix3d> correction(solution.correctedFromCamera, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (!(correction.singularValues()[0] > 0)) {
-    throw InputError("", "charts.target", "", "every patch is black; check the capture of the real place");
-  }
   solution.correctionCondition = condition(correction.singularValues());
   solution.bounded = !(solution.correctionCondition <= options.largestCondition);
   const Matrix3d cameraFromCorrected = solution.bounded ? boundedInverse(correction, options.largestCondition)
