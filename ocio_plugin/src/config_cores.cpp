@@ -11,6 +11,7 @@
 #include "config_spaces.h"
 #include "matrix_operator.h"
 #include "metamer/ocio/lut_writer.h"
+#include "metamer/ocio/pending_file.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
@@ -25,6 +26,7 @@ constexpr const char* kInterchangeRole = "aces_interchange";
 constexpr const char* kInterchangeSpace = "ACES2065-1";
 constexpr const char* kChart = "colorchecker";
 constexpr int kChainSize = 65;
+constexpr double kLargestNeutralGain = 0.02;
 constexpr std::array<int, 8> kTableSizes = {9, 13, 17, 21, 25, 33, 49, 65};
 
 /// Where a recipe's transform stands in a config.
@@ -38,7 +40,7 @@ struct Place {
 
 std::optional<std::string> inConfig(const std::string& builtInSpace, const ConfigFacts& facts) {
   for (const std::string& name : namesInConfigs(builtInSpace)) {
-    if (const auto found = facts.space(name)) {
+    if (auto found = facts.space(name)) {
       return found;
     }
   }
@@ -104,6 +106,7 @@ std::string commonName(const std::vector<CoreUse>& uses) {
 /// A table solved for one adaptation is off by more at others, the more the further.
 double middleAdaptation(const std::vector<CoreUse>& uses) {
   std::vector<double> all;
+  all.reserve(uses.size());
   for (const CoreUse& use : uses) {
     all.push_back(use.recipe.adaptation);
   }
@@ -203,6 +206,31 @@ Baked cheapest(const ConfigCore& core, const spectral::DataLibrary& library, int
   return bake(core.recipe, library, options);
 }
 
+/// A group whose last operator, a matrix, makes good what a file of it does to neutrals: a small table is off by some
+/// thousandths where the transform is steep at white, and rounded numbers are by some hundred-thousandths.
+OCIO::ConstGroupTransformRcPtr withExactNeutrals(const OCIO::ConstGroupTransformRcPtr& group,
+                                                 const PixelProcessor& file, const sip::SpectralTransform& engine) {
+  constexpr double kGrey = 0.18;
+  std::array<float, 4> pixel = {static_cast<float>(kGrey), static_cast<float>(kGrey), static_cast<float>(kGrey), 1.0F};
+  file.apply(pixel);
+  const Eigen::Vector3d is(pixel[0], pixel[1], pixel[2]);
+  const Eigen::Vector3d wanted = engine.apply(Eigen::Vector3d::Constant(kGrey));
+  const Eigen::Vector3d gain = wanted.cwiseQuotient(is);
+  auto copy = OCIO::DynamicPtrCast<OCIO::GroupTransform>(group->createEditableCopy());
+  const auto last = OCIO::DynamicPtrCast<OCIO::MatrixTransform>(copy->getTransform(copy->getNumTransforms() - 1));
+  // Anything larger is no small table's error: a light that leaves a channel next to nothing.
+  if (!last || !((gain.array() - 1.0).abs().maxCoeff() < kLargestNeutralGain)) {
+    return group;
+  }
+  std::array<double, 16> values{};
+  last->getMatrix(values.data());
+  for (std::size_t k = 0; k < 12; ++k) {
+    values[k] *= gain[static_cast<Eigen::Index>(k / 4)];
+  }
+  last->setMatrix(values.data());
+  return copy;
+}
+
 }  // namespace
 
 std::vector<ConfigCore> coresOf(const std::vector<sip::Recipe>& recipes, const ConfigFacts& facts,
@@ -277,17 +305,24 @@ Certificate certificateOf(const ConfigCore& core, const CoreUse& use, const Bake
 }
 
 BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library, int size,
-                   std::optional<double> tolerance) {
+                   std::optional<double> tolerance, const std::filesystem::path& folder) {
   Baked baked = cheapest(core, library, size, tolerance);
   BakedCore result{baked.group, std::move(baked.certificate), ""};
-  if (!asMatrix(result.group)) {
-    const LutFormat& format = lutFormat("core.ctf", "");
+  if (asMatrix(result.group)) {
+    return result;
+  }
+  const auto textOf = [&](const OCIO::ConstGroupTransformRcPtr& group) {
     const LutDescription description{core.name, "metamer-" + sha256(sip::toYaml(core.recipe)).substr(0, 16),
                                      result.certificate.lines()};
-    result.lutText = shortTables(lutText(format, result.group, result.certificate.size, description));
-    result.certificate.format = format.name;
-    result.certificate.sha256 = sha256(result.lutText);
-  }
+    return shortTables(lutText(lutFormat("core.ctf", ""), group, result.certificate.size, description));
+  };
+  PendingFile trial(folder / "trial.ctf");
+  trial.write(textOf(result.group));
+  result.group = withExactNeutrals(result.group, PixelProcessor::fromFile(trial.path()),
+                                   sip::SpectralTransform(specOf(core, library)));
+  result.lutText = textOf(result.group);
+  result.certificate.format = lutFormat("core.ctf", "").name;
+  result.certificate.sha256 = sha256(result.lutText);
   return result;
 }
 

@@ -39,9 +39,11 @@ struct BakedCore {
   Certificate certificate;
   std::string lutText;  ///< of its .ctf; empty where it is matrices alone
 };
+/// Neutrals come out of the file as they come out of the engine.
 /// @param size, tolerance  as ConfigOptions
+/// @param folder           for a file to try
 BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library, int size,
-                   std::optional<double> tolerance);
+                   std::optional<double> tolerance, const std::filesystem::path& folder);
 
 /// What the look of a use does in the core's process space.
 /// @param src  how the config names the core's file

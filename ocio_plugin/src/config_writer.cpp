@@ -177,7 +177,7 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   std::vector<ConfigItem> pendingItems;  // the same with the files' names of now, to be loaded
   std::vector<std::unique_ptr<PendingFile>> pending;
   for (const ConfigCore& core : coresOf(recipes, facts, library, where)) {
-    const BakedCore baked = bakeCore(core, library, options.size, options.tolerance);
+    const BakedCore baked = bakeCore(core, library, options.size, options.tolerance, lutFolder.path());
     const std::string lutName = fileName(core.name) + ".ctf";
     std::string pendingName;
     fs::path lutPath;
