@@ -11,9 +11,11 @@
 #include "config_spaces.h"
 #include "matrix_operator.h"
 #include "metamer/ocio/lut_writer.h"
+#include "metamer/ocio/pending_file.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
+#include "short_tables.h"
 
 namespace metamer::ocio {
 namespace {
@@ -24,8 +26,8 @@ constexpr const char* kInterchangeRole = "aces_interchange";
 constexpr const char* kInterchangeSpace = "ACES2065-1";
 constexpr const char* kChart = "colorchecker";
 constexpr int kChainSize = 65;
+constexpr double kLargestNeutralGain = 0.02;
 constexpr std::array<int, 8> kTableSizes = {9, 13, 17, 21, 25, 33, 49, 65};
-constexpr double kRounding = 1e5;
 
 /// Where a recipe's transform stands in a config.
 struct Place {
@@ -38,7 +40,7 @@ struct Place {
 
 std::optional<std::string> inConfig(const std::string& builtInSpace, const ConfigFacts& facts) {
   for (const std::string& name : namesInConfigs(builtInSpace)) {
-    if (const auto found = facts.space(name)) {
+    if (auto found = facts.space(name)) {
       return found;
     }
   }
@@ -91,9 +93,25 @@ std::string commonName(const std::vector<CoreUse>& uses) {
     const auto end = std::mismatch(name.begin(), name.end(), use.recipe.name.begin(), use.recipe.name.end()).first;
     name.erase(end, name.end());
   }
-  // "day_to_night_0" of 050 and 000 is not a name: digits at the end go too.
-  name.erase(name.find_last_not_of("0123456789 _-.") + 1);
+  // Of 000 and 050 the first digit is common: a number that has begun goes too, one that belongs to a name stays.
+  const std::string separators = " _-.";
+  const std::size_t number = name.find_last_not_of("0123456789");
+  if (number != std::string::npos && separators.find(name[number]) != std::string::npos) {
+    name.erase(number);
+  }
+  name.erase(name.find_last_not_of(separators) + 1);
   return name.empty() ? uses.front().recipe.name : name;
+}
+
+/// A table solved for one adaptation is off by more at others, the more the further.
+double middleAdaptation(const std::vector<CoreUse>& uses) {
+  std::vector<double> all;
+  all.reserve(uses.size());
+  for (const CoreUse& use : uses) {
+    all.push_back(use.recipe.adaptation);
+  }
+  std::sort(all.begin(), all.end());
+  return all[all.size() / 2];
 }
 
 /// Gain on the cones by adaptation, as the engine has it (docs of sip::SpectralTransform): D W/W_out + (1 - D) W/W_in.
@@ -133,77 +151,84 @@ std::optional<Eigen::Matrix3d> asMatrix(const OCIO::ConstGroupTransformRcPtr& gr
   return product;
 }
 
-/// The first of nothing, a matrix and tables of rising size that holds a tolerance.
-Baked cheapest(const sip::Recipe& recipe, const spectral::DataLibrary& library, int size,
+sip::TransformSpec specOf(const ConfigCore& core, const spectral::DataLibrary& library) {
+  return sip::resolve(core.recipe, library, library.colourSpace(core.recipe.space).linear);
+}
+
+/// What a use is off by with a transform as the core's, on the core's linear pixels.
+sip::ErrorProtocol::Report errorOf(const ConfigCore& core, const CoreUse& use,
+                                   const OCIO::ConstTransformRcPtr& transform,
+                                   const sip::ErrorProtocol::Options& probes, const spectral::DataLibrary& library) {
+  sip::TransformSpec spec = specOf(core, library);
+  auto group = OCIO::GroupTransform::Create();
+  group->appendTransform(transform->createEditableCopy());
+  if (use.recipe.adaptation != core.recipe.adaptation) {
+    group->appendTransform(matrixOperator(adaptationMatrix(spec, core.recipe.adaptation, use.recipe.adaptation)));
+  }
+  spec.adaptation = use.recipe.adaptation;
+  const PixelProcessor processor(group);
+  return sip::ErrorProtocol(spec, library.reflectances(kChart).samples, probes).measure([&](std::span<float> rgba) {
+    processor.apply(rgba);
+  });
+}
+
+/// The first of nothing, a matrix and tables of rising size that holds a tolerance for all uses; the largest table
+/// where none does, or without a tolerance.
+Baked cheapest(const ConfigCore& core, const spectral::DataLibrary& library, int size,
                std::optional<double> tolerance) {
-  const int largest = size != 0 ? size : kChainSize;
   BakeOptions options;
-  options.size = largest;
+  const auto holds = [&](const Baked& baked) {
+    return std::all_of(core.uses.begin(), core.uses.end(), [&](const CoreUse& use) {
+      return errorOf(core, use, baked.group, baked.certificate.probes, library).p99 <= *tolerance;
+    });
+  };
+  const int largest = size != 0 ? size : kChainSize;
+  options.size = kSmallestTable;
+  Baked baked = bake(core.recipe, library, options);
+  if (baked.certificate.representation == Representation::Identity) {
+    return baked;
+  }
   if (tolerance) {
     options.representation = Representation::Matrix;
-    Baked baked = bake(recipe, library, options);
-    if (baked.certificate.error.p99 <= *tolerance) {
-      // A matrix that changes nothing comes from a recipe that does nothing.
-      options.representation.reset();
-      return baked.certificate.error.max < 1e-3 ? bake(recipe, library, options) : baked;
+    baked = bake(core.recipe, library, options);
+    if (holds(baked)) {
+      return baked;
     }
     options.representation.reset();
     for (const int nodes : kTableSizes) {
       options.size = nodes;
-      if (nodes < largest && (baked = bake(recipe, library, options)).certificate.error.p99 <= *tolerance) {
+      if (nodes < largest && holds(baked = bake(core.recipe, library, options))) {
         return baked;
       }
     }
-    options.size = largest;
   }
-  return bake(recipe, library, options);
+  options.size = largest;
+  return bake(core.recipe, library, options);
 }
 
-/// Tables with their values rounded, so that they are short as text.
-OCIO::GroupTransformRcPtr rounded(const OCIO::ConstGroupTransformRcPtr& group) {
-  const auto shorter = [](float value) { return static_cast<float>(std::round(value * kRounding) / kRounding); };
+/// A group whose last operator, a matrix, makes good what a file of it does to neutrals: a small table is off by some
+/// thousandths where the transform is steep at white, and rounded numbers are by some hundred-thousandths.
+OCIO::ConstGroupTransformRcPtr withExactNeutrals(const OCIO::ConstGroupTransformRcPtr& group,
+                                                 const PixelProcessor& file, const sip::SpectralTransform& engine) {
+  constexpr double kGrey = 0.18;
+  std::array<float, 4> pixel = {static_cast<float>(kGrey), static_cast<float>(kGrey), static_cast<float>(kGrey), 1.0F};
+  file.apply(pixel);
+  const Eigen::Vector3d is(pixel[0], pixel[1], pixel[2]);
+  const Eigen::Vector3d wanted = engine.apply(Eigen::Vector3d::Constant(kGrey));
+  const Eigen::Vector3d gain = wanted.cwiseQuotient(is);
   auto copy = OCIO::DynamicPtrCast<OCIO::GroupTransform>(group->createEditableCopy());
-  for (int k = 0; k < copy->getNumTransforms(); ++k) {
-    const auto transform = copy->getTransform(k);
-    std::array<float, 3> rgb{};
-    if (const auto cube = OCIO::DynamicPtrCast<OCIO::Lut3DTransform>(transform)) {
-      const unsigned long size = cube->getGridSize();
-      for (unsigned long node = 0; node < size * size * size; ++node) {
-        const std::array<unsigned long, 3> at = {node / (size * size), node / size % size, node % size};
-        cube->getValue(at[0], at[1], at[2], rgb[0], rgb[1], rgb[2]);
-        cube->setValue(at[0], at[1], at[2], shorter(rgb[0]), shorter(rgb[1]), shorter(rgb[2]));
-      }
-    } else if (const auto curve = OCIO::DynamicPtrCast<OCIO::Lut1DTransform>(transform)) {
-      for (unsigned long entry = 0; entry < curve->getLength(); ++entry) {
-        curve->getValue(entry, rgb[0], rgb[1], rgb[2]);
-        curve->setValue(entry, shorter(rgb[0]), shorter(rgb[1]), shorter(rgb[2]));
-      }
-    }
+  const auto last = OCIO::DynamicPtrCast<OCIO::MatrixTransform>(copy->getTransform(copy->getNumTransforms() - 1));
+  // Anything larger is no small table's error: a light that leaves a channel next to nothing.
+  if (!last || !((gain.array() - 1.0).abs().maxCoeff() < kLargestNeutralGain)) {
+    return group;
   }
+  std::array<double, 16> values{};
+  last->getMatrix(values.data());
+  for (std::size_t k = 0; k < 12; ++k) {
+    values[k] *= gain[static_cast<Eigen::Index>(k / 4)];
+  }
+  last->setMatrix(values.data());
   return copy;
-}
-
-/// Lines of numbers without the spaces that align them.
-std::string squeezed(const std::string& text) {
-  std::string result;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
-    const std::string line = text.substr(begin, end - begin);
-    if (line.find_first_not_of("0123456789+-.eE \n") != std::string::npos) {
-      result += line;
-    } else {
-      for (std::size_t k = 0; k < line.size(); ++k) {
-        const bool isNeeded = line[k] != ' ' || (!result.empty() && result.back() != '\n' && result.back() != ' ');
-        result += isNeeded ? std::string(1, line[k]) : std::string();
-      }
-    }
-    begin = end;
-  }
-  return result;
-}
-
-sip::TransformSpec specOf(const ConfigCore& core, const spectral::DataLibrary& library) {
-  return sip::resolve(core.recipe, library, library.colourSpace(core.recipe.space).linear);
 }
 
 }  // namespace
@@ -225,11 +250,11 @@ std::vector<ConfigCore> coresOf(const std::vector<sip::Recipe>& recipes, const C
       cores.back().recipe.space = place.linearSpace;
     }
     ConfigCore& core = cores[found->second];
-    core.recipe.adaptation = std::max(core.recipe.adaptation, recipe.adaptation);
     core.uses.push_back({recipe, place.pixelSpace, place.encoding});
   }
   std::set<std::string> names;
   for (ConfigCore& core : cores) {
+    core.recipe.adaptation = middleAdaptation(core.uses);
     core.name = commonName(core.uses);
     if (!names.insert(lowerCase(core.name)).second) {
       core.name = core.uses.front().recipe.name;
@@ -238,21 +263,6 @@ std::vector<ConfigCore> coresOf(const std::vector<sip::Recipe>& recipes, const C
     core.recipe.name = core.name;
   }
   return cores;
-}
-
-BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library, int size,
-                   std::optional<double> tolerance) {
-  Baked baked = cheapest(core.recipe, library, size, tolerance);
-  BakedCore result{baked.group, std::move(baked.certificate), ""};
-  if (!asMatrix(result.group)) {
-    const LutFormat& format = lutFormat("core.ctf", "");
-    const LutDescription description{core.name, "metamer-" + sha256(sip::toYaml(core.recipe)).substr(0, 16),
-                                     result.certificate.lines()};
-    result.lutText = squeezed(lutText(format, rounded(result.group), result.certificate.size, description));
-    result.certificate.format = format.name;
-    result.certificate.sha256 = sha256(result.lutText);
-  }
-  return result;
 }
 
 std::vector<ConfigStep> stepsOf(const ConfigCore& core, const CoreUse& use, const BakedCore& baked,
@@ -281,27 +291,39 @@ std::vector<ConfigStep> stepsOf(const ConfigCore& core, const CoreUse& use, cons
 
 Certificate certificateOf(const ConfigCore& core, const CoreUse& use, const BakedCore& baked,
                           const std::filesystem::path& lutFile, const spectral::DataLibrary& library) {
-  ConfigCore onLinear = core;
-  onLinear.linearFromProcess.reset();
-  auto group = OCIO::GroupTransform::Create();
-  for (const ConfigStep& step : stepsOf(onLinear, use, baked, "", library)) {
-    if (const auto* matrix = std::get_if<Eigen::Matrix3d>(&step)) {
-      group->appendTransform(matrixOperator(*matrix));
-    } else {
-      auto file = OCIO::FileTransform::Create();
-      file->setSrc(std::filesystem::absolute(lutFile).string().c_str());
-      file->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
-      group->appendTransform(file);
-    }
+  OCIO::ConstTransformRcPtr transform = baked.group;
+  if (!lutFile.empty()) {
+    auto file = OCIO::FileTransform::Create();
+    file->setSrc(std::filesystem::absolute(lutFile).string().c_str());
+    file->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+    transform = file;
   }
   Certificate certificate = baked.certificate;
   certificate.recipe = use.recipe;
-  sip::TransformSpec spec = specOf(core, library);
-  spec.adaptation = use.recipe.adaptation;
-  const PixelProcessor processor(group);
-  certificate.error = sip::ErrorProtocol(spec, library.reflectances(kChart).samples, certificate.probes)
-                          .measure([&](std::span<float> rgba) { processor.apply(rgba); });
+  certificate.error = errorOf(core, use, transform, certificate.probes, library);
   return certificate;
+}
+
+BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library, int size,
+                   std::optional<double> tolerance, const std::filesystem::path& folder) {
+  Baked baked = cheapest(core, library, size, tolerance);
+  BakedCore result{baked.group, std::move(baked.certificate), ""};
+  if (asMatrix(result.group)) {
+    return result;
+  }
+  const auto textOf = [&](const OCIO::ConstGroupTransformRcPtr& group) {
+    const LutDescription description{core.name, "metamer-" + sha256(sip::toYaml(core.recipe)).substr(0, 16),
+                                     result.certificate.lines()};
+    return shortTables(lutText(lutFormat("core.ctf", ""), group, result.certificate.size, description));
+  };
+  PendingFile trial(folder / "trial.ctf");
+  trial.write(textOf(result.group));
+  result.group = withExactNeutrals(result.group, PixelProcessor::fromFile(trial.path()),
+                                   sip::SpectralTransform(specOf(core, library)));
+  result.lutText = textOf(result.group);
+  result.certificate.format = lutFormat("core.ctf", "").name;
+  result.certificate.sha256 = sha256(result.lutText);
+  return result;
 }
 
 }  // namespace metamer::ocio

@@ -24,7 +24,7 @@ struct CoreUse {
 /// output pipeline sees: from one to another it is a matrix behind the transform, so one table serves all.
 struct ConfigCore {
   std::string name;          ///< of its file
-  sip::Recipe recipe;        ///< as it is baked: on linear pixels, with the strongest adaptation of its uses
+  sip::Recipe recipe;        ///< as it is baked: on linear pixels, with the middle adaptation of its uses
   std::string processSpace;  ///< of the looks
   std::optional<Eigen::Matrix3d> linearFromProcess;  ///< where that is not the space of `recipe`
   std::vector<CoreUse> uses;
@@ -39,10 +39,11 @@ struct BakedCore {
   Certificate certificate;
   std::string lutText;  ///< of its .ctf; empty where it is matrices alone
 };
-/// Numbers of its tables have five digits behind the point: a hundredth of a CIEDE2000 at most, for half the file.
+/// Neutrals come out of the file as they come out of the engine.
 /// @param size, tolerance  as ConfigOptions
+/// @param folder           for a file to try
 BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library, int size,
-                   std::optional<double> tolerance);
+                   std::optional<double> tolerance, const std::filesystem::path& folder);
 
 /// What the look of a use does in the core's process space.
 /// @param src  how the config names the core's file

@@ -119,18 +119,31 @@ std::string familyOf(const sip::Recipe& recipe, const std::string& family, char 
   return family + separator + kind;
 }
 
-std::string descriptionOf(const ConfigEntry& entry) {
-  std::array<char, 64> adaptation{};
-  std::snprintf(adaptation.data(), adaptation.size(), "eye adapted to the new light: %g",
-                entry.certificate.recipe.adaptation);
-  std::string text;
-  std::vector<std::string> lines = entry.certificate.lines();
-  lines.insert(lines.begin() + 1, adaptation.data());
-  lines.push_back("look in " + entry.processSpace + ", named transform on " + entry.pixelSpace);
-  for (const std::string& line : lines) {
-    text += line + "\n";
+std::string lightOf(const sip::RecipePipeline& pipeline) {
+  const auto name = [](const std::string& nameOrFile) { return fs::path(nameOrFile).filename().string(); };
+  std::string text = name(pipeline.illuminant);
+  for (const auto& filter : pipeline.filters) {
+    std::array<char, 32> density{};
+    std::snprintf(density.data(), density.size(), ":%g", filter.density);
+    text += " through " + name(filter.name) + density.data();
   }
-  return text;
+  return text + ", " + name(pipeline.observer);
+}
+
+/// What it does, and how well, in four lines; the certificate says more.
+std::string descriptionOf(const ConfigEntry& entry) {
+  const Certificate& certificate = entry.certificate;
+  const sip::ErrorProtocol::Report& error = certificate.error;
+  std::array<char, 200> figures{};
+  std::snprintf(figures.data(), figures.size(),
+                "CIEDE2000 against the spectral engine: mean %.2f, p99 %.2f, max %.2f, stops %+d to %+d", error.mean,
+                error.p99, error.max, certificate.probes.lowestStop, certificate.probes.highestStop);
+  std::array<char, 64> adaptation{};
+  std::snprintf(adaptation.data(), adaptation.size(), "adaptation %g, ", certificate.recipe.adaptation);
+  return "From " + lightOf(certificate.recipe.input) + "\nto " + lightOf(certificate.recipe.output) + "\n" +
+         adaptation.data() + nameOf(certificate.representation) +
+         (certificate.size > 0 ? " of " + std::to_string(certificate.size) : "") + ", metamer " + toolVersion() + "\n" +
+         figures.data() + "\n";
 }
 
 }  // namespace
@@ -164,7 +177,7 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   std::vector<ConfigItem> pendingItems;  // the same with the files' names of now, to be loaded
   std::vector<std::unique_ptr<PendingFile>> pending;
   for (const ConfigCore& core : coresOf(recipes, facts, library, where)) {
-    const BakedCore baked = bakeCore(core, library, options.size, options.tolerance);
+    const BakedCore baked = bakeCore(core, library, options.size, options.tolerance, lutFolder.path());
     const std::string lutName = fileName(core.name) + ".ctf";
     std::string pendingName;
     fs::path lutPath;

@@ -93,6 +93,35 @@ TEST(ConfigWriterTest, RecipesThatDifferInAdaptationShareAFile) {
   EXPECT_EQ(json["transform"]["sha256"], sha256(contentsOf(folder / "luts/sodium.ctf")));
 }
 
+TEST(ConfigWriterTest, TheLeastThatHoldsATolerance) {
+  const TemporaryFolder folder;
+  const auto entryAt = [&](double tolerance, int size) {
+    ConfigOptions options;
+    options.tolerance = tolerance;
+    options.size = size;
+    return writeConfig({recipeOf("look", "D65", "A", 0.5)}, testLibrary(),
+                       folder / (std::to_string(tolerance) + ".ocio"), options)
+        .entries[0];
+  };
+  const ConfigEntry matrix = entryAt(100.0, 65);
+  EXPECT_EQ(matrix.certificate.representation, Representation::Matrix);
+  EXPECT_TRUE(matrix.file.empty());
+  EXPECT_GT(matrix.certificate.error.p99, 0.5);
+  int last = 0;
+  for (const double tolerance : {2.0, 0.8}) {
+    const ConfigEntry entry = entryAt(tolerance, 21);
+    EXPECT_EQ(entry.certificate.representation, Representation::ExposureInvariantChain);
+    EXPECT_LE(entry.certificate.error.p99, tolerance);
+    EXPECT_GE(entry.certificate.size, last);
+    last = entry.certificate.size;
+  }
+  EXPECT_LT(last, 21);
+  // What cannot be held: the largest that was allowed.
+  const ConfigEntry least = entryAt(1e-4, 9);
+  EXPECT_EQ(least.certificate.size, 9);
+  EXPECT_GT(least.certificate.error.p99, 1e-4);
+}
+
 TEST(ConfigWriterTest, ALookIsItsRecipeInWhateverSpace) {
   const TemporaryFolder folder;
   // The last two: of the config itself, and built in but not in the config.
