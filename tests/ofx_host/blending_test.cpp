@@ -14,7 +14,7 @@ constexpr OfxRectI kBounds = {0, 0, 50, 40};
 class OfxBlending : public ::testing::Test {
  protected:
   Host m_host{builtLibrary()};
-  std::unique_ptr<Instance> m_effect = m_host.create(0, {{"outputIlluminant", "A"}});
+  std::unique_ptr<Instance> m_effect = m_host.create(0, {{"outputIlluminant", "A"}, {"scene", "Data set"}});
   Frame m_source{{.bounds = kBounds}};
   Frame m_full{{.bounds = kBounds}};
   Frame m_output{{.bounds = kBounds}};

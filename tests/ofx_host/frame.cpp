@@ -112,7 +112,7 @@ Image Frame::image(const std::string& premultiplication) const {
 
 Frame::Rgba testPixel(int x, int y) {
   // A small hash (Wellons' lowbias32) of the position, a fresh one a channel.
-  auto state = static_cast<std::uint32_t>(x * 73856093 ^ y * 19349663);
+  std::uint32_t state = static_cast<std::uint32_t>(x) * 73856093U ^ static_cast<std::uint32_t>(y) * 19349663U;
   const auto uniform = [&state] {
     state = (state + 0x9e3779b9U);
     std::uint32_t h = state;

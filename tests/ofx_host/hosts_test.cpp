@@ -53,7 +53,7 @@ TEST(OfxHosts, DescribesTwoEffectsUnderOneGrouping) {
 }
 
 TEST(OfxHosts, TheResultDoesNotDependOnWhatTheHostHas) {
-  const std::map<std::string, Properties::Value> settings = {{"outputIlluminant", "FL11"}};
+  const std::map<std::string, Properties::Value> settings = {{"outputIlluminant", "FL11"}, {"scene", "Data set"}};
   const Frame reference = rendered({.threads = 0}, settings);
   for (const Features& features : {Features{.threads = 1}, Features{.threads = 2}, Features{.threads = 7},
                                    Features{.threads = 3, .persistentMessages = false, .plainMessages = false}}) {
@@ -124,9 +124,11 @@ TEST_F(OfxColourManagement, IsDeclaredToHostsThatKnowIt) {
 }
 
 TEST_F(OfxColourManagement, TheClipsSpaceStandsAboveTheMenu) {
-  const auto managed = m_host.create(0, {{"outputIlluminant", "A"}, {"space", "Rec.709"}});
-  const auto byMenu = m_host.create(0, {{"outputIlluminant", "A"}, {"space", "ARRI LogC4"}, {"hostSpace", 0}});
-  const auto plain = m_host.create(0, {{"outputIlluminant", "A"}, {"space", "Rec.709"}, {"hostSpace", 0}});
+  const auto managed = m_host.create(0, {{"outputIlluminant", "A"}, {"space", "Rec.709"}, {"scene", "Data set"}});
+  const auto byMenu =
+      m_host.create(0, {{"outputIlluminant", "A"}, {"space", "ARRI LogC4"}, {"scene", "Data set"}, {"hostSpace", 0}});
+  const auto plain =
+      m_host.create(0, {{"outputIlluminant", "A"}, {"space", "Rec.709"}, {"scene", "Data set"}, {"hostSpace", 0}});
   const auto wanted = render(*byMenu);
   const auto menu = render(*plain);
   ASSERT_NE(wanted, menu);

@@ -15,7 +15,8 @@ constexpr OfxRectI kBounds = {-7, 11, 58, 40};
 class OfxImages : public ::testing::Test {
  protected:
   Host m_host{builtLibrary()};
-  std::unique_ptr<Instance> m_effect = m_host.create(0, {{"outputIlluminant", "HP1"}, {"adaptation", 0.3}});
+  std::unique_ptr<Instance> m_effect =
+      m_host.create(0, {{"outputIlluminant", "HP1"}, {"adaptation", 0.3}, {"scene", "Data set"}});
 
   /// The effect's result for a pixel on its own: a plain picture of one row.
   Frame::Rgba expected(const Frame::Rgba& pixel) {

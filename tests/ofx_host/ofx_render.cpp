@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -55,7 +56,19 @@ struct Options {
   photo_host::ClipKind kind;
   std::vector<std::pair<std::string, std::string>> settings;
   std::string save;
+  std::map<std::string, std::string> loaded;
 };
+
+/// NAME=VALUE a line, as --save writes it.
+std::map<std::string, std::string> readProject(const std::string& file) {
+  std::map<std::string, std::string> project;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t equals = line.find('=');
+    project[line.substr(0, equals)] = line.substr(equals + 1);
+  }
+  return project;
+}
 
 Options parse(const std::vector<std::string>& words, std::size_t first) {
   Options options;
@@ -69,6 +82,8 @@ Options parse(const std::vector<std::string>& words, std::size_t first) {
       options.kind.depth = "OfxBitDepth" + value;
     } else if (words[i] == "--save") {
       options.save = value;
+    } else if (words[i] == "--load") {
+      options.loaded = readProject(value);
     } else if (words[i] == "--set") {
       const std::size_t equals = value.find('=');
       options.settings.emplace_back(value.substr(0, equals), value.substr(equals + 1));
@@ -92,7 +107,7 @@ int run(const std::vector<std::string>& words) {
   }
   const Options options = parse(words, 6);
   photo_host::Host host(words[0], options.threads);
-  const auto effect = host.create(words[1], "OfxImageEffectContextFilter", options.kind);
+  const auto effect = host.create(words[1], "OfxImageEffectContextFilter", options.kind, options.loaded);
   for (const auto& [name, value] : options.settings) {
     effect->set(name, value);
   }

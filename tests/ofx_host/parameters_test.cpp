@@ -59,16 +59,18 @@ TEST_F(OfxParameters, MenusAreRememberedByName) {
 
 TEST_F(OfxParameters, AProjectFromAnotherReleaseKeepsItsNames) {
   // The position is another release's; the name counts.
-  const auto effect = m_host.create(0, {{"outputIlluminant", 5}, {"outputIlluminantName", std::string("HP1")}});
+  const auto effect =
+      m_host.create(0, {{"outputIlluminant", 5}, {"outputIlluminantName", std::string("HP1")}, {"scene", "Data set"}});
   EXPECT_EQ(effect->menuOption("outputIlluminant"), "HP1");
-  const auto reference = m_host.create(0, {{"outputIlluminant", "HP1"}});
+  const auto reference = m_host.create(0, {{"outputIlluminant", "HP1"}, {"scene", "Data set"}});
   EXPECT_EQ(render(*effect), render(*reference));
   effect->set("outputIlluminantName", std::string("A"));
   EXPECT_EQ(effect->menuOption("outputIlluminant"), "A");
 }
 
 TEST_F(OfxParameters, ANameThatIsGoneIsToldWithNearOnes) {
-  const auto effect = m_host.create(0, {{"outputIlluminant", 3}, {"outputIlluminantName", std::string("FL111")}});
+  const auto effect = m_host.create(
+      0, {{"outputIlluminant", 3}, {"outputIlluminantName", std::string("FL111")}, {"scene", "Data set"}});
   expectPassesThrough(*effect, {"output", "illuminant", "FL111", "near names", "FL11"});
   effect->set("outputIlluminant", "FL11");
   EXPECT_NE(render(*effect), m_source.at(3, 3));
@@ -83,11 +85,13 @@ TEST_F(OfxParameters, AMissingRecipePassesThePictureThroughUntilItIsThere) {
   const int shown = effect->effect().messagesShown;
   render(*effect);
   EXPECT_EQ(effect->effect().messagesShown, shown) << "the same message is not shown anew";
-  write("100 %s day.yaml", "metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: A}\n");
+  write("100 %s day.yaml",
+        "metamer: 1\nscene: {kind: dataset, set: skin}\ninput: {illuminant: D65}\noutput: {illuminant: A}\n");
   const auto warm = render(*effect);
   EXPECT_NE(warm, m_source.at(3, 3));
   EXPECT_EQ(effect->message(), "");
-  write("100 %s day.yaml", "metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: HP1}\n");
+  write("100 %s day.yaml",
+        "metamer: 1\nscene: {kind: dataset, set: skin}\ninput: {illuminant: D65}\noutput: {illuminant: HP1}\n");
   EXPECT_NE(render(*effect), warm) << "an edited recipe is read anew";
   write("100 %s day.yaml", "metamer: 1\ninput: {illuminant: D65}\noutput: {illumiant: HP1}\n");
   expectPassesThrough(*effect, {":3", "illumiant"});
@@ -95,7 +99,7 @@ TEST_F(OfxParameters, AMissingRecipePassesThePictureThroughUntilItIsThere) {
 
 TEST_F(OfxParameters, SpectraFromFilesAreFollowed) {
   const std::string light = write("lamp", "nm,power\n380,1\n580,1\n780,3\n");
-  const auto effect = m_host.create(0, {{"outputIlluminant", "From file"}});
+  const auto effect = m_host.create(0, {{"outputIlluminant", "From file"}, {"scene", "Data set"}});
   expectPassesThrough(*effect, {"outputIlluminantFile", "no file is chosen"});
   effect->set("outputIlluminantFile", std::string(m_folder.path() / "lamp.csv"));
   expectPassesThrough(*effect, {"lamp.csv"});
@@ -110,7 +114,8 @@ TEST_F(OfxParameters, SpectraFromFilesAreFollowed) {
 }
 
 TEST_F(OfxParameters, OutOfRangeTemperaturesAndDarkFiltersAreTold) {
-  const auto effect = m_host.create(0, {{"outputIlluminant", "CIE daylight"}, {"outputTemperature", 3000.0}});
+  const auto effect =
+      m_host.create(0, {{"outputIlluminant", "CIE daylight"}, {"outputTemperature", 3000.0}, {"scene", "Data set"}});
   expectPassesThrough(*effect, {"3000", "4000"});
   effect->set("outputIlluminant", "Blackbody");
   EXPECT_NE(render(*effect), m_source.at(3, 3));

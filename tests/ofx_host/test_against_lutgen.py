@@ -126,6 +126,26 @@ class AgainstLutgen(unittest.TestCase):
                     "space": "Rec.2020", "inputIlluminant": "D50", "inputObserver": "CIE 1964 10",
                     "outputIlluminant": "A", "outputObserver": "Nikon D5100", **settings}, recipe)
 
+    def test_a_saved_project_comes_back_even_where_menus_have_grown(self):
+        rgba = with_alpha(pictures.photograph("astronaut.png")[::4, ::4])
+        project = self.folder / "project.txt"
+        expected, _ = self.plugin(rgba, {
+            "inputIlluminant": "CIE daylight", "inputTemperature": 5003.25, "outputIlluminant": "HP1", "adaptation": 0.3,
+            "outputFilter": "Lee 201 Full C.T. Blue", "cat": "cat16", "mix": 0.9}, save=project)
+        reloaded, message = self.plugin(rgba, {}, load=project)
+        self.assertEqual(message, "")
+        np.testing.assert_array_equal(reloaded, expected)
+        # Another release's lists: every position is off by one, the names stand.
+        lines = project.read_text().splitlines()
+        menus = {line.split("Name=")[0] for line in lines if "Name=" in line}
+        moved = [f"{name}={int(value) + 1}" if name in menus else f"{name}={value}"
+                 for name, value in (line.split("=", 1) for line in lines)]
+        self.assertNotEqual(moved, lines)
+        project.write_text("\n".join(moved) + "\n")
+        reloaded, message = self.plugin(rgba, {}, load=project)
+        self.assertEqual(message, "")
+        np.testing.assert_array_equal(reloaded, expected)
+
     def test_half_pictures_are_the_float_result_rounded(self):
         rgb = pictures.photograph("astronaut.png")[::4, ::4].astype(np.float16).astype(np.float32)
         settings = {"outputIlluminant": "A"}
