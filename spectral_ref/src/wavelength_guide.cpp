@@ -17,7 +17,7 @@ constexpr double kLikeness = 0.3;  ///< relative difference of two histograms at
 constexpr double kPictureShare = 0.02;
 /// Relative variance by wavelength of one path with uniform lanes below which a pixel stays uniform: a learnt density
 /// is not exact enough to do better.
-constexpr double kLittleVariance = 0.02;
+constexpr double kLittleVariance = 0.05;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ WavelengthGuide::WavelengthGuide(int width, int height, int lanes)
       m_bins(m_learnt.size()),
       m_isUniform(m_learnt.size() / kBins),
       m_within(kCells),
-      m_below(kCells + kBins) {}
+      m_belowCell(kCells + kBins) {}
 
 void WavelengthGuide::addFine(const std::vector<ExactSum>& fine) {
   const std::lock_guard lock(m_mutex);
@@ -104,11 +104,11 @@ void WavelengthGuide::build() {
     double below = 0;
     for (int cell = firstCell(bin); cell < endCell(bin); ++cell) {
       const double share = sum > 0 ? m_fine[static_cast<std::size_t>(cell)].value() / sum : 1.0 / count;
-      m_below[static_cast<std::size_t>(cell + bin)] = static_cast<float>(below);
+      m_belowCell[static_cast<std::size_t>(cell + bin)] = static_cast<float>(below);
       m_within[static_cast<std::size_t>(cell)] = static_cast<float>(share);
       below += share;
     }
-    m_below[static_cast<std::size_t>(endCell(bin) + bin)] = 1.0F;
+    m_belowCell[static_cast<std::size_t>(endCell(bin) + bin)] = 1.0F;
     picture[static_cast<std::size_t>(bin)] = sum;
     total += sum;
   }
@@ -120,23 +120,23 @@ void WavelengthGuide::build() {
       for (const double bin : bins) {
         sum += bin;
       }
-      std::uint16_t* units =
-          m_bins.data() +
-          (static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) + static_cast<std::size_t>(x)) * kBins;
-      // Whole units that add up to all of them: rounded running sums.
       for (std::size_t bin = 0; bin < kBins; ++bin) {
         const double mean = total > 0 ? picture[bin] / total : 1.0 / kBins;
         bins[bin] = sum > 0 ? (1.0 - kPictureShare) * bins[bin] / sum + kPictureShare * mean : mean;
       }
       m_isUniform[static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) + static_cast<std::size_t>(x)] =
           uniformVariance(bins) < kLittleVariance ? 1 : 0;
+      // Running sums in whole units, the uniform share in; none below what that share alone comes to.
+      std::uint16_t* units =
+          m_bins.data() +
+          (static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) + static_cast<std::size_t>(x)) * kBins;
       double running = 0;
-      int given = 0;
-      for (std::size_t bin = 0; bin < kBins; ++bin) {
-        running += bins[bin];
-        const int upTo = std::min(static_cast<int>(std::lround(running * static_cast<double>(kUnits))), 65535);
-        units[bin] = static_cast<std::uint16_t>(bin + 1 == kBins ? 65535 - given : upTo - given);
-        given += units[bin];
+      for (int bin = 0; bin < kBins; ++bin) {
+        const double uniform = static_cast<double>(firstCell(bin)) / kCells;
+        const double defensive = static_cast<double>(kDefensive);
+        units[bin] = static_cast<std::uint16_t>(
+            std::floor(((1.0 - defensive) * running + defensive * uniform) * static_cast<double>(kUnits)));
+        running += bins[static_cast<std::size_t>(bin)];
       }
     }
   });
@@ -147,9 +147,11 @@ float WavelengthGuide::Density::density(std::int32_t cell) const {
   if (m_isUniform) {
     return 1.0F / static_cast<float>(kCells);
   }
-  const float learnt =
-      static_cast<float>(m_bins[binOf(cell)]) / kUnits * m_guide.m_within[static_cast<std::size_t>(cell)];
-  return (1.0F - kDefensive) * learnt + kDefensive / static_cast<float>(kCells);
+  const auto bin = static_cast<int>(binOf(cell));
+  const float below = static_cast<float>(m_below[bin]) / kUnits;
+  const float end = bin + 1 < kBins ? static_cast<float>(m_below[bin + 1]) / kUnits : 1.0F;
+  const auto count = static_cast<float>(endCell(bin) - firstCell(bin));
+  return (end - below - kUniformCell * count) * m_guide.m_within[static_cast<std::size_t>(cell)] + kUniformCell;
 }
 
 void WavelengthGuide::Density::sample(float u, float& nm, std::int32_t& cell, float& inverseDensity) const {
@@ -157,25 +159,18 @@ void WavelengthGuide::Density::sample(float u, float& nm, std::int32_t& cell, fl
     UniformWavelengths().sample(u, nm, cell, inverseDensity);
     return;
   }
-  // The bin: running sums of whole units and of the uniform share.
-  int bin = 0;
-  float below = 0;
-  float inBin = 0;
-  for (std::uint32_t units = 0;; ++bin) {
-    below = (1.0F - kDefensive) * static_cast<float>(units) / kUnits +
-            kDefensive * static_cast<float>(firstCell(bin)) / static_cast<float>(kCells);
-    inBin = (1.0F - kDefensive) * static_cast<float>(m_bins[bin]) / kUnits;
-    units += m_bins[bin];
-    const float next = (1.0F - kDefensive) * static_cast<float>(units) / kUnits +
-                       kDefensive * static_cast<float>(endCell(bin)) / static_cast<float>(kCells);
-    if (u < next || bin + 1 == kBins) {
-      break;
-    }
+  // The bin: how many of the running sums lie at or below u.
+  int bin = -1;
+  for (int i = 0; i < kBins; ++i) {
+    bin += static_cast<float>(m_below[i]) <= u * kUnits ? 1 : 0;
   }
+  const float below = static_cast<float>(m_below[bin]) / kUnits;
+  const float end = bin + 1 < kBins ? static_cast<float>(m_below[bin + 1]) / kUnits : 1.0F;
+  const auto count = static_cast<float>(endCell(bin) - firstCell(bin));
+  const float inBin = end - below - kUniformCell * count;
   // The cell within it: a binary search on its running sum.
-  const float* shares = m_guide.m_below.data() + firstCell(bin) + bin;
+  const float* shares = m_guide.m_belowCell.data() + firstCell(bin) + bin;
   const float rest = u - below;
-  constexpr float kUniformCell = kDefensive / static_cast<float>(kCells);
   const auto upTo = [&](int i) { return inBin * shares[i] + kUniformCell * static_cast<float>(i); };
   int low = 0;
   int high = endCell(bin) - firstCell(bin);
@@ -196,7 +191,7 @@ void WavelengthGuide::save(StateWriter& writer) const {
   writer.putAll(m_bins);
   writer.putAll(m_isUniform);
   writer.putAll(m_within);
-  writer.putAll(m_below);
+  writer.putAll(m_belowCell);
 }
 
 void WavelengthGuide::restore(StateReader& reader) {
@@ -206,7 +201,7 @@ void WavelengthGuide::restore(StateReader& reader) {
   reader.getAll(m_bins);
   reader.getAll(m_isUniform);
   reader.getAll(m_within);
-  reader.getAll(m_below);
+  reader.getAll(m_belowCell);
 }
 
 }  // namespace metamer::spectral_ref

@@ -24,7 +24,7 @@ class WavelengthGuide {
   static constexpr int kBins = 20;
   static constexpr int kCellsABin = 20;  ///< the last bin has one more
   /// Samples after which the densities are built, then built anew; no more is learnt after the last.
-  static constexpr std::array<std::uint64_t, 3> kBuilds = {8, 32, 128};
+  static constexpr std::array<std::uint64_t, 2> kBuilds = {16, 64};
   /// Uniform part of the density (the defensive share).
   static constexpr float kDefensive = 0.1F;
 
@@ -57,7 +57,7 @@ class WavelengthGuide {
   class Density {
    public:
     Density(const WavelengthGuide& guide, std::size_t pixel)
-        : m_guide(guide), m_bins(guide.m_bins.data() + pixel * kBins), m_isUniform(guide.m_isUniform[pixel] != 0) {}
+        : m_guide(guide), m_below(guide.m_bins.data() + pixel * kBins), m_isUniform(guide.m_isUniform[pixel] != 0) {}
     /// As UniformWavelengths::sample.
     void sample(float u, float& nm, std::int32_t& cell, float& inverseDensity) const;
     /// Per nm.
@@ -65,7 +65,7 @@ class WavelengthGuide {
 
    private:
     const WavelengthGuide& m_guide;
-    const std::uint16_t* m_bins;
+    const std::uint16_t* m_below;
     bool m_isUniform;
   };
   Density density(std::size_t pixel) const { return {*this, pixel}; }
@@ -75,7 +75,8 @@ class WavelengthGuide {
 
  private:
   static constexpr float kLargest = 1e11F;
-  static constexpr float kUnits = 65535.0F;  ///< the probabilities of a pixel's bins are whole numbers of 1/65535
+  static constexpr float kUnits = 65536.0F;  ///< running sums of a pixel's bins are whole numbers of 1/65536
+  static constexpr float kUniformCell = kDefensive / static_cast<float>(kCells);
 
   static std::size_t binOf(std::int32_t cell) {
     return static_cast<std::size_t>(std::min(cell / kCellsABin, kBins - 1));
@@ -90,10 +91,10 @@ class WavelengthGuide {
   int m_lanes;
   std::vector<float> m_learnt;            ///< [pixel][bin]
   std::vector<ExactSum> m_fine;           ///< [cell], of the whole picture
-  std::vector<std::uint16_t> m_bins;      ///< [pixel][bin], probabilities
+  std::vector<std::uint16_t> m_bins;      ///< [pixel][bin], density's integral below the bin
   std::vector<std::uint8_t> m_isUniform;  ///< [pixel]
   std::vector<float> m_within;            ///< [cell], probability of the cell within its bin
-  std::vector<float> m_below;  ///< [cell + bin], probability within the bin below the cell; 1 behind the last
+  std::vector<float> m_belowCell;  ///< [cell + bin], probability within the bin below the cell; 1 behind the last
   bool m_isReady = false;
   std::mutex m_mutex;
 };
