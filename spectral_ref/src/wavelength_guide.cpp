@@ -17,7 +17,7 @@ constexpr double kLikeness = 0.3;  ///< relative difference of two histograms at
 constexpr double kPictureShare = 0.02;
 /// Relative variance by wavelength of one path with uniform lanes below which a pixel stays uniform: a learnt density
 /// is not exact enough to do better.
-constexpr double kLittleVariance = 0.05;
+constexpr double kLittleVariance = 0.2;
 
 }  // namespace
 

@@ -24,7 +24,7 @@ class WavelengthGuide {
   static constexpr int kBins = 20;
   static constexpr int kCellsABin = 20;  ///< the last bin has one more
   /// Samples after which the densities are built, then built anew; no more is learnt after the last.
-  static constexpr std::array<std::uint64_t, 2> kBuilds = {16, 64};
+  static constexpr std::array<std::uint64_t, 2> kBuilds = {8, 32};
   /// Uniform part of the density (the defensive share).
   static constexpr float kDefensive = 0.1F;
 
