@@ -3,10 +3,12 @@
 
 #include "camera.h"
 #include "embree_scene.h"
+#include "film_sensor.h"
 #include "lanes.h"
 #include "light_table.h"
 #include "material_table.h"
 #include "metamer/spectral_ref/scene.h"
+#include "reservoir.h"
 #include "sampler.h"
 
 namespace metamer::spectral_ref {
@@ -71,7 +73,10 @@ class PathIntegrator {
   explicit PathIntegrator(const PreparedScene& prepared)
       : m_prepared(prepared), m_settings(prepared.scene.integrator) {}
 
-  Lanes<C> radiance(Ray ray, const WavelengthSet<C>& wavelengths, PathRandom& random) const {
+  /// @param reservoir  gives the direct light of the first surface where it was filled for it
+  /// @param isHero     whether its target was the hero's alone
+  Lanes<C> radiance(Ray ray, const WavelengthSet<C>& wavelengths, PathRandom& random,
+                    const Reservoir<C>* reservoir = nullptr, bool isHero = false) const {
     Path path;
     for (int edge = 1;; ++edge) {
       Hit hit;
@@ -95,7 +100,10 @@ class PathIntegrator {
         break;
       }
       random.vertex(static_cast<std::uint32_t>(edge - 1));
-      if (!bsdf.isDelta() && !m_prepared.lights.empty()) {
+      path.lightShare = 1.0F;
+      if (edge == 1 && reservoir != nullptr && reservoir->confidence > 0.0F) {
+        addResampledLight(hit, bsdf, *reservoir, isHero, path, wavelengths);
+      } else if (!bsdf.isDelta() && !m_prepared.lights.empty()) {
         addDirectLight(hit, frame, out, bsdf, random.light(m_prepared.lights), path, wavelengths);
       }
       if (!scatter(hit, frame, out, bsdf, random, path, ray)) {
@@ -106,6 +114,32 @@ class PathIntegrator {
       }
     }
     return path.radiance;
+  }
+
+  /// The receiver that a camera ray sees, for resampling; false where there is none, or it is not diffuse.
+  bool resamplingDomain(Ray ray, const WavelengthSet<C>& wavelengths, const FilmSensor& sensor, bool isHero,
+                        ReservoirDomain<C>& domain) const {
+    Hit hit;
+    Lanes<C> factor = Lanes<C>::Ones();
+    if (trace(ray, hit, factor, wavelengths) != Passage::Hit || m_settings.maxDepth < 2) {
+      return false;
+    }
+    if (!m_prepared.materials.isDiffuse(hit.material) || ray.direction.dot(hit.normal) >= 0.0F) {
+      return false;
+    }
+    factor *= m_prepared.materials.template bsdf<C, kDispersive>(hit.material, m_prepared.spectra, wavelengths)
+                  .diffuseReflectance();
+    domain.place = {hit.position.x(), hit.position.y(), hit.position.z()};
+    domain.up = {hit.normal.x(), hit.normal.y(), hit.normal.z()};
+    for (int k = 0; k < C; ++k) {
+      const auto lane = static_cast<std::size_t>(k);
+      domain.cell[lane] = static_cast<std::uint16_t>(wavelengths.cell[lane]);
+      // Lanes: luminance, and a little of everything, so that a point is lost to no lane.
+      constexpr float kInvisibleShare = 0.05F / static_cast<float>(kCells);
+      const float luminance = std::abs(sensor.luminance(wavelengths.cell[lane])) + kInvisibleShare;
+      domain.factor[lane] = isHero ? (k == 0 ? factor[0] : 0.0F) : factor[k] * luminance * wavelengths.weight[k];
+    }
+    return true;
   }
 
  private:
@@ -121,6 +155,7 @@ class PathIntegrator {
     float heroSum = static_cast<float>(C);        ///< over all heroes
     float heroSumBefore = static_cast<float>(C);  ///< the same before the last direction was drawn
     float lastPdf = 0;                            ///< of that direction, by the hero
+    float lightShare = 1;                         ///< of next-event estimation there, as a number of light samples
     Vec3 lastPosition = Vec3::Zero();
     bool lastIsDelta = true;  ///< next-event estimation could not have found what it hits
   };
@@ -175,7 +210,7 @@ class PathIntegrator {
   /// Weight of light found by following the BSDF, where next-event estimation finds it with density `lightPdf`:
   /// C p_bsdf / (sum of p_bsdf + sum of p_light over heroes).
   static float bsdfWeight(const Path& path, float lightPdf) {
-    const float others = path.lastIsDelta ? 0.0F : lightPdf / path.lastPdf * path.heroSumBefore;
+    const float others = path.lastIsDelta ? 0.0F : path.lightShare * lightPdf / path.lastPdf * path.heroSumBefore;
     return static_cast<float>(C) / (path.heroSum + others);
   }
 
@@ -222,6 +257,32 @@ class PathIntegrator {
     const float bsdfSum = light.isDelta ? 0.0F : sumOverHeroes<C>(value.pdf * path.heroes);
     path.radiance +=
         path.throughput * value.value * arriving * static_cast<float>(C) / (light.pdf * path.heroSum + bsdfSum);
+  }
+
+  /// The same with the point of a reservoir: f W (4.3.3), with the lanes weighed by (4.21) where the hero chose alone.
+  template <typename Bsdf>
+  void addResampledLight(const Hit& hit, const Bsdf& bsdf, const Reservoir<C>& reservoir, bool isHero, Path& path,
+                         const WavelengthSet<C>& wavelengths) const {
+    path.lightShare = ReservoirSampler<C>::kLightShare;
+    if (!(reservoir.contribution > 0.0F)) {
+      return;
+    }
+    const ReservoirSampler<C> sampler(m_prepared.lights, m_prepared.spectra);
+    const auto seen = sampler.look(reservoir.point, reservoir.domain);
+    if (!(seen.geometry > 0.0F)) {
+      return;
+    }
+    Lanes<C> arriving =
+        path.throughput * bsdf.diffuseReflectance() *
+        m_prepared.lights.radiance(seen.light.emitter, seen.light.element, m_prepared.spectra, wavelengths);
+    float weight = seen.geometry * reservoir.contribution;
+    if (isHero) {
+      const float sum = arriving.sum();
+      weight *= sum > 0.0F ? static_cast<float>(C) * arriving[0] / sum : 0.0F;
+    }
+    if (weight > 0.0F && transmits(shadowRay(hit, seen.light), seen.light.emitter, arriving, wavelengths)) {
+      path.radiance += arriving * weight;
+    }
   }
 
   static Ray shadowRay(const Hit& hit, const LightSample& light) {

@@ -31,18 +31,22 @@ std::vector<Tile> tilesOf(int width, int height) {
   return tiles;
 }
 
-std::unique_ptr<TileTracer> tracerFor(const PreparedScene& prepared, FilmSensor& sensor, std::uint32_t seed) {
-  switch (prepared.scene.integrator.wavelengths) {
+std::unique_ptr<TileTracer> tracerFor(const TracerContext& context) {
+  switch (context.prepared.scene.integrator.wavelengths) {
     case 1:
-      return makeTileTracer<1>(prepared, sensor, seed);
+      return makeTileTracer<1>(context);
     case 8:
-      return makeTileTracer<8>(prepared, sensor, seed);
+      return makeTileTracer<8>(context);
     case 16:
-      return makeTileTracer<16>(prepared, sensor, seed);
+      return makeTileTracer<16>(context);
     default:
-      assert(prepared.scene.integrator.wavelengths == 4);
-      return makeTileTracer<4>(prepared, sensor, seed);
+      assert(context.prepared.scene.integrator.wavelengths == 4);
+      return makeTileTracer<4>(context);
   }
+}
+
+Replicates replicatesFor(const RenderOptions& options) {
+  return {options.restir == Restir::Off ? 1 : TileTracer::kEpoch};
 }
 
 }  // namespace
@@ -52,26 +56,66 @@ struct Renderer::State {
       : options(renderOptions),
         prepared(scene),
         sensor(scene.film),
-        film(FilmFormat::of(scene.film, {})),
+        film(FilmFormat::of(scene.film, replicatesFor(options))),
         tiles(tilesOf(scene.film.width, scene.film.height)),
         arena(threads > 0 ? std::min(threads, tbb::info::default_concurrency()) : tbb::task_arena::automatic),
         first(firstSample),
-        next(firstSample),
-        tracer(tracerFor(prepared, sensor, options.seed)) {}
+        guide(options.guiding
+                  ? std::make_unique<WavelengthGuide>(scene.film.width, scene.film.height, scene.integrator.wavelengths)
+                  : nullptr),
+        tracer(tracerFor({prepared, sensor, film, guide.get(), options})) {
+    // What the guide learns comes from the first samples of all, so these are taken whatever the range.
+    cursor = guide ? 0 : epochStart();
+  }
 
-  void pass(std::uint64_t end) {
+  /// First sample that the film's first one depends on, but for what the guide learns.
+  std::uint64_t epochStart() const { return tracer->resamples() ? first - first % TileTracer::kEpoch : first; }
+  std::uint64_t next() const { return std::max(cursor, first); }
+
+  template <typename Work>
+  void forTiles(const Work& work) {
     arena.execute([&] {
       tbb::parallel_for(
           tbb::blocked_range<std::size_t>(0, tiles.size(), 1),
           [&](const tbb::blocked_range<std::size_t>& range) {
             for (std::size_t i = range.begin(); i < range.end(); ++i) {
-              tracer->trace(tiles[i], next, end, film);
+              work(tiles[i]);
             }
           },
           tbb::simple_partitioner());
     });
-    next = end;
-    film.setRanges({{first, next}});
+  }
+
+  /// The end of a pass of at most `count` samples: not across a sample at which something is built or the film begins.
+  std::uint64_t passEnd(std::uint64_t count) const {
+    std::uint64_t end = cursor + count;
+    if (cursor < first) {
+      end = std::min(end, first);
+    }
+    for (const std::uint64_t build : WavelengthGuide::kBuilds) {
+      if (guide && cursor < build) {
+        end = std::min(end, build);
+      }
+    }
+    return tracer->resamples() ? cursor + 1 : end;
+  }
+
+  void pass(std::uint64_t end) {
+    const bool isKept = cursor >= first;
+    if (tracer->resamples()) {
+      assert(end == cursor + 1);
+      forTiles([&](const Tile& tile) { tracer->prepare(tile, cursor); });
+    }
+    forTiles([&](const Tile& tile) { tracer->trace(tile, cursor, end, isKept); });
+    cursor = end;
+    if (guide && std::find(WavelengthGuide::kBuilds.begin(), WavelengthGuide::kBuilds.end(), cursor) !=
+                     WavelengthGuide::kBuilds.end()) {
+      arena.execute([&] { guide->build(); });
+    }
+    if (guide && !guide->isLearning(cursor)) {
+      cursor = std::max(cursor, epochStart());
+    }
+    film.setRanges({{first, next()}});
     film.refused = refusedBefore + sensor.refused();
   }
 
@@ -82,8 +126,9 @@ struct Renderer::State {
   std::vector<Tile> tiles;
   tbb::task_arena arena;
   std::uint64_t first;
-  std::uint64_t next;
+  std::uint64_t cursor = 0;  ///< next sample to take; before `first` they are taken for what they teach
   std::uint64_t refusedBefore = 0;
+  std::unique_ptr<WavelengthGuide> guide;
   std::unique_ptr<TileTracer> tracer;
   double secondsASample = 0;
 };
@@ -97,7 +142,7 @@ void Renderer::render(std::uint64_t end, double seconds) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const auto elapsed = [&start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  while (m_state->next < end && elapsed() < seconds) {
+  while (m_state->next() < end && elapsed() < seconds) {
     // As many samples a pass as fill the time left, once their price is known.
     std::uint64_t count = 1;
     if (m_state->secondsASample > 0) {
@@ -105,14 +150,28 @@ void Renderer::render(std::uint64_t end, double seconds) {
       count = static_cast<std::uint64_t>(std::clamp(fitting, 1.0, static_cast<double>(kMostSamplesAPass)));
     }
     const double before = elapsed();
-    count = std::min(count, end - m_state->next);
-    m_state->pass(m_state->next + count);
+    count = m_state->passEnd(std::min(count, end - std::min(end, m_state->cursor))) - m_state->cursor;
+    m_state->pass(m_state->cursor + count);
     m_state->secondsASample = (elapsed() - before) / static_cast<double>(count);
   }
 }
 
 std::uint64_t Renderer::nextSample() const {
-  return m_state->next;
+  return m_state->next();
+}
+
+spectral::DomainSamples Renderer::wavelengthDensity(int x, int y) const {
+  if (!m_state->guide || !m_state->guide->isReady()) {
+    return spectral::DomainSamples::Constant(1.0 / kCells);
+  }
+  const auto density =
+      m_state->guide->density(static_cast<std::size_t>(y) * static_cast<std::size_t>(m_state->film.format().width) +
+                              static_cast<std::size_t>(x));
+  spectral::DomainSamples samples;
+  for (std::int32_t cell = 0; cell < kCells; ++cell) {
+    samples[cell] = static_cast<double>(density.density(cell));
+  }
+  return samples;
 }
 
 const Film& Renderer::film() const {
@@ -131,9 +190,13 @@ std::vector<unsigned char> Renderer::state() const {
   writer.put(m_state->options.guiding);
   writer.put(m_state->options.restir);
   writer.put(m_state->first);
-  writer.put(m_state->next);
+  writer.put(m_state->cursor);
   writer.put(m_state->film.refused);
   writer.putAll(m_state->film.sums());
+  if (m_state->guide) {
+    m_state->guide->save(writer);
+  }
+  m_state->tracer->save(writer);
   return std::move(writer).take();
 }
 
@@ -160,15 +223,19 @@ void Renderer::restore(const std::vector<unsigned char>& state, const std::strin
   if (reader.get<std::uint64_t>() != m_state->first) {
     throw other("first sample");
   }
-  const auto next = reader.get<std::uint64_t>();
+  const auto cursor = reader.get<std::uint64_t>();
   const auto refused = reader.get<std::uint64_t>();
   std::vector<ExactSum>& sums = m_state->film.sums();
   reader.getAll(sums);
+  if (m_state->guide) {
+    m_state->guide->restore(reader);
+  }
+  m_state->tracer->restore(reader);
   reader.finish();
-  m_state->next = next;
+  m_state->cursor = cursor;
   m_state->refusedBefore = refused;
   m_state->film.refused = refused;
-  m_state->film.setRanges({{m_state->first, next}});
+  m_state->film.setRanges({{m_state->first, m_state->next()}});
 }
 
 }  // namespace metamer::spectral_ref

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "scene_mesh.h"
+#include "scene_pictures.h"
 #include "scene_surface.h"
 
 namespace metamer::spectral_ref {
@@ -69,6 +71,31 @@ void readChart(const YamlValue& place, const YamlSection& shape, SceneSpectra& s
   }
 }
 
+void readLedWall(const YamlValue& place, const YamlSection& shape, SceneSpectra& spectra, Scene& scene) {
+  const YamlSection section(place, {"center", "half_u", "half_v", "picture", "emitters", "matrix", "scale"});
+  for (const char* key : kSurfaceKeys) {
+    if (const auto value = shape.find(key)) {
+      throw value->error("", "an LED wall has its picture's light; leave this out");
+    }
+  }
+  Rectangle wall = readPlace(section);
+  scene.pictures.push_back(readPicture(section, spectra));
+  wall.picture = static_cast<std::uint32_t>(scene.pictures.size() - 1);
+  scene.materials.emplace_back();
+  wall.surface.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
+  scene.rectangles.push_back(wall);
+}
+
+void readMeshShape(const YamlValue& file, const YamlSection& shape, SceneSpectra& spectra, Scene& scene) {
+  Mesh mesh = readMesh(file, spectra.folder());
+  mesh.surface = readSurface(shape, spectra, scene);
+  if (mesh.dropped > 0) {
+    scene.warnings.push_back(mesh.file + ": " + std::to_string(mesh.dropped) +
+                             " triangles have no area or a coordinate that is no finite number, and are left out");
+  }
+  scene.meshes.push_back(std::move(mesh));
+}
+
 void readPoint(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
   const YamlSection section(value, {"position", "intensity"});
   PointLight light;
@@ -104,7 +131,15 @@ void readEnvironment(const YamlValue& value, SceneSpectra& spectra, Scene& scene
   if (!scene.environments.empty()) {
     throw value.error("", "is the second one; a scene has one environment");
   }
-  const YamlSection section(value, {"emission"});
+  const YamlSection section(value, {"emission", "picture", "emitters", "matrix", "scale"});
+  if (section.find("picture")) {
+    if (const auto emission = section.find("emission")) {
+      throw emission->error("", "cannot stand beside a picture; leave one out");
+    }
+    scene.pictures.push_back(readPicture(section, spectra));
+    scene.environments.push_back({static_cast<std::uint32_t>(scene.pictures.size() - 1)});
+    return;
+  }
   EmitterPicture picture;
   picture.width = 1;
   picture.height = 1;
@@ -118,14 +153,14 @@ void readEnvironment(const YamlValue& value, SceneSpectra& spectra, Scene& scene
 }  // namespace
 
 void readShape(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
-  const YamlSection shape(value,
-                          {"rectangle", "sphere", "chart", "diffuse", "conductor", "dielectric", "gel", "emission"});
+  const YamlSection shape(value, {"rectangle", "sphere", "chart", "mesh", "led_wall", "diffuse", "conductor",
+                                  "dielectric", "gel", "emission"});
   int kinds = 0;
-  for (const char* kind : {"rectangle", "sphere", "chart"}) {
+  for (const char* kind : {"rectangle", "sphere", "chart", "mesh", "led_wall"}) {
     kinds += shape.find(kind) ? 1 : 0;
   }
   if (kinds != 1) {
-    throw shape.error("", "must be one rectangle, sphere or chart");
+    throw shape.error("", "must be one rectangle, sphere, chart, mesh or led_wall");
   }
   if (const auto rectangle = shape.find("rectangle")) {
     readRectangle(*rectangle, shape, spectra, scene);
@@ -133,6 +168,10 @@ void readShape(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
     readSphere(*sphere, shape, spectra, scene);
   } else if (const auto chart = shape.find("chart")) {
     readChart(*chart, shape, spectra, scene);
+  } else if (const auto mesh = shape.find("mesh")) {
+    readMeshShape(*mesh, shape, spectra, scene);
+  } else if (const auto wall = shape.find("led_wall")) {
+    readLedWall(*wall, shape, spectra, scene);
   }
 }
 

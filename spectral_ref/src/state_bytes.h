@@ -29,8 +29,10 @@ class StateWriter {
 
  private:
   void append(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    m_bytes.insert(m_bytes.end(), bytes, bytes + size);
+    if (size > 0) {
+      m_bytes.resize(m_bytes.size() + size);
+      std::memcpy(m_bytes.data() + (m_bytes.size() - size), data, size);
+    }
   }
   std::vector<unsigned char> m_bytes;
 };

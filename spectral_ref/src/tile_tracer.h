@@ -5,7 +5,10 @@
 #include <memory>
 
 #include "film_sensor.h"
+#include "metamer/spectral_ref/renderer.h"
 #include "path_integrator.h"
+#include "state_bytes.h"
+#include "wavelength_guide.h"
 
 namespace metamer::spectral_ref {
 
@@ -16,12 +19,30 @@ struct Tile {
   int y1;
 };
 
-/// Takes samples of the pixels of a tile. One for each number of lanes, chosen once.
+/// All that the tracers of a render share.
+struct TracerContext {
+  const PreparedScene& prepared;
+  FilmSensor& sensor;
+  Film& film;
+  WavelengthGuide* guide;  ///< null without guiding
+  RenderOptions options;
+};
+
+/// Takes samples of the pixels of a tile. One for each number of lanes, chosen once. Tiles may be traced at the same
+/// time.
 class TileTracer {
  public:
+  /// Samples after which resampling starts anew, so that a sample depends on few before it.
+  static constexpr std::uint64_t kEpoch = 16;
+
   virtual ~TileTracer() = default;
-  /// Samples begin ... end - 1 of all pixels of a tile. Tiles may be traced at the same time.
-  virtual void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, Film& film) = 0;
+  /// Whether prepare() must be done for all tiles before trace(), one sample at a time.
+  virtual bool resamples() const { return false; }
+  virtual void prepare(const Tile&, std::uint64_t /*sample*/) {}
+  /// Samples begin ... end - 1 of all pixels of a tile. @param isKept  whether they go into the film
+  virtual void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, bool isKept) = 0;
+  virtual void save(StateWriter&) const {}
+  virtual void restore(StateReader&) {}
 };
 
 /// Names the random sequence of a pixel's replicate.
@@ -30,11 +51,11 @@ inline std::uint32_t sequenceOf(std::uint32_t seed, std::size_t pixel, std::size
 }
 
 template <int C>
-std::unique_ptr<TileTracer> makeTileTracer(const PreparedScene& prepared, FilmSensor& sensor, std::uint32_t seed);
+std::unique_ptr<TileTracer> makeTileTracer(const TracerContext& context);
 
-extern template std::unique_ptr<TileTracer> makeTileTracer<1>(const PreparedScene&, FilmSensor&, std::uint32_t);
-extern template std::unique_ptr<TileTracer> makeTileTracer<4>(const PreparedScene&, FilmSensor&, std::uint32_t);
-extern template std::unique_ptr<TileTracer> makeTileTracer<8>(const PreparedScene&, FilmSensor&, std::uint32_t);
-extern template std::unique_ptr<TileTracer> makeTileTracer<16>(const PreparedScene&, FilmSensor&, std::uint32_t);
+extern template std::unique_ptr<TileTracer> makeTileTracer<1>(const TracerContext&);
+extern template std::unique_ptr<TileTracer> makeTileTracer<4>(const TracerContext&);
+extern template std::unique_ptr<TileTracer> makeTileTracer<8>(const TracerContext&);
+extern template std::unique_ptr<TileTracer> makeTileTracer<16>(const TracerContext&);
 
 }  // namespace metamer::spectral_ref

@@ -3,6 +3,6 @@
 
 namespace metamer::spectral_ref {
 
-template std::unique_ptr<TileTracer> makeTileTracer<4>(const PreparedScene&, FilmSensor&, std::uint32_t);
+template std::unique_ptr<TileTracer> makeTileTracer<4>(const TracerContext&);
 
 }  // namespace metamer::spectral_ref

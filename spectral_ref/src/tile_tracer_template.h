@@ -1,49 +1,212 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "reservoir.h"
 #include "tile_tracer.h"
 #include "wavelength_sampling.h"
 
 namespace metamer::spectral_ref {
 
+/// What a path starts with.
+template <int C>
+struct PathStart {
+  PathRandom random;
+  WavelengthSet<C> wavelengths;
+  Ray ray;
+};
+
+/// Plain path tracing.
 template <int C, bool kDispersive>
 class LaneTracer : public TileTracer {
  public:
-  LaneTracer(const PreparedScene& prepared, FilmSensor& sensor, std::uint32_t seed)
-      : m_prepared(prepared), m_sensor(sensor), m_seed(seed), m_integrator(prepared) {}
+  explicit LaneTracer(const TracerContext& context) : m_context(context), m_integrator(context.prepared) {}
 
-  void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, Film& film) override {
-    const Replicates& replicates = film.format().replicates;
+  void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, bool isKept) override {
+    std::vector<ExactSum> fine(isLearning(begin) ? kCells : 0);
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
-        const std::size_t pixel =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(film.format().width) + static_cast<std::size_t>(x);
         for (std::uint64_t sample = begin; sample < end; ++sample) {
-          const std::size_t replicate = replicates.of(sample);
-          PathRandom random(
-              Sampler(sequenceOf(m_seed, pixel, replicate), static_cast<std::uint32_t>(replicates.index(sample))));
-          const Eigen::Vector2f place = m_prepared.camera.filtered(x, y, random.pixel());
-          const auto wavelengths = sampleWavelengths<C>(UniformWavelengths(), random.wavelength());
-          const Ray ray = m_prepared.camera.ray(place.x(), place.y());
-          m_sensor.add<C>(film, pixel, replicate, wavelengths, m_integrator.radiance(ray, wavelengths, random));
+          PathStart<C> start = startOf(x, y, sample);
+          keep(pixelOf(x, y), sample, isKept, start.wavelengths, radianceOf(x, y, sample, start), fine);
         }
+      }
+    }
+    if (!fine.empty()) {
+      m_context.guide->addFine(fine);
+    }
+  }
+
+ protected:
+  virtual Lanes<C> radianceOf(int /*x*/, int /*y*/, std::uint64_t /*sample*/, PathStart<C>& start) {
+    return m_integrator.radiance(start.ray, start.wavelengths, start.random);
+  }
+
+  std::size_t pixelOf(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_context.film.format().width) +
+           static_cast<std::size_t>(x);
+  }
+
+  PathStart<C> startOf(int x, int y, std::uint64_t sample) const {
+    const Replicates& replicates = m_context.film.format().replicates;
+    const std::size_t pixel = pixelOf(x, y);
+    const PathRandom random(Sampler(sequenceOf(m_context.options.seed, pixel, replicates.of(sample)),
+                                    static_cast<std::uint32_t>(replicates.index(sample))));
+    const Eigen::Vector2f place = m_context.prepared.camera.filtered(x, y, random.pixel());
+    const bool isGuided = m_context.guide != nullptr && m_context.guide->isReady();
+    return {random,
+            isGuided ? sampleWavelengths<C>(m_context.guide->density(pixel), random.wavelength())
+                     : sampleWavelengths<C>(UniformWavelengths(), random.wavelength()),
+            m_context.prepared.camera.ray(place.x(), place.y())};
+  }
+
+  const TracerContext m_context;
+  const PathIntegrator<C, kDispersive> m_integrator;
+
+ private:
+  bool isLearning(std::uint64_t sample) const {
+    return m_context.guide != nullptr && m_context.guide->isLearning(sample);
+  }
+
+  void keep(std::size_t pixel, std::uint64_t sample, bool isKept, const WavelengthSet<C>& wavelengths,
+            const Lanes<C>& radiance, std::vector<ExactSum>& fine) {
+    if (isKept) {
+      m_context.sensor.template add<C>(m_context.film, pixel, m_context.film.format().replicates.of(sample),
+                                       wavelengths, radiance);
+    }
+    if (!fine.empty()) {
+      Lanes<C> luminance = radiance * wavelengths.weight;
+      for (int k = 0; k < C; ++k) {
+        luminance[k] *= std::abs(m_context.sensor.luminance(wavelengths.cell[static_cast<std::size_t>(k)]));
+      }
+      m_context.guide->template learn<C>(pixel, wavelengths, luminance, fine);
+    }
+  }
+};
+
+/// Path tracing whose direct light at the first surface, where that is diffuse, is resampled over progressions and
+/// neighbours (4.3).
+template <int C, bool kDispersive>
+class ReservoirTracer : public LaneTracer<C, kDispersive> {
+ public:
+  explicit ReservoirTracer(const TracerContext& context)
+      : LaneTracer<C, kDispersive>(context),
+        m_sampler(context.prepared.lights, context.prepared.spectra),
+        m_fresh(context.film.format().pixels()),
+        m_kept(context.film.format().pixels()) {}
+
+  bool resamples() const override { return true; }
+
+  /// Fresh candidates, then the reservoir of the progression before.
+  void prepare(const Tile& tile, std::uint64_t sample) override {
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        const std::size_t pixel = this->pixelOf(x, y);
+        m_fresh[pixel] = gathered(x, y, sample);
       }
     }
   }
 
+  void save(StateWriter& writer) const override { writer.putAll(m_kept); }
+  void restore(StateReader& reader) override { reader.getAll(m_kept); }
+
+ protected:
+  /// Three neighbours, then the path with the point that is left.
+  Lanes<C> radianceOf(int x, int y, std::uint64_t sample, PathStart<C>& start) override {
+    const std::size_t pixel = this->pixelOf(x, y);
+    Reservoir<C>& kept = m_kept[pixel];
+    kept = m_fresh[pixel];
+    if (kept.confidence > 0.0F) {
+      const FilmFormat& format = this->m_context.film.format();
+      HashRandom random(this->m_context.options.seed, pixel, sample, kSpatialStream);
+      for (int i = 0; i < kNeighbours; ++i) {
+        const Eigen::Vector2f offset = squareToDisc(random.next(), random.next()) * kRadius;
+        const float u = random.next();
+        const int nx = x + static_cast<int>(std::lround(offset.x()));
+        const int ny = y + static_cast<int>(std::lround(offset.y()));
+        if (nx < 0 || ny < 0 || nx >= format.width || ny >= format.height || (nx == x && ny == y)) {
+          continue;
+        }
+        const Reservoir<C>& other = m_fresh[this->pixelOf(nx, ny)];
+        if (other.domain.normal().dot(kept.domain.normal()) > kLikeNormal) {
+          m_sampler.merge(kept, other, other.confidence, u);
+        }
+      }
+    }
+    return this->m_integrator.radiance(start.ray, start.wavelengths, start.random, &kept,
+                                       this->m_context.options.restir == Restir::Hero);
+  }
+
  private:
-  const PreparedScene& m_prepared;
-  FilmSensor& m_sensor;
-  std::uint32_t m_seed;
-  PathIntegrator<C, kDispersive> m_integrator;
+  static constexpr int kCandidates = 8;
+  static constexpr int kNeighbours = 3;
+  static constexpr float kRadius = 10.0F;  ///< pixels
+  static constexpr float kLikeNormal = 0.9F;
+  static constexpr float kLongestHistory = 4.0F;  ///< progressions that the reservoir of the one before may stand for
+  static constexpr std::uint32_t kFreshStream = 1;
+  static constexpr std::uint32_t kSpatialStream = 2;
+  static_assert(std::is_trivially_copyable_v<Reservoir<C>>);
+
+  /// Independent numbers for choices among reservoirs.
+  class HashRandom {
+   public:
+    HashRandom(std::uint32_t seed, std::size_t pixel, std::uint64_t sample, std::uint32_t stream)
+        : m_key(hash32(hash32(seed, static_cast<std::uint32_t>(pixel)),
+                       hash32(static_cast<std::uint32_t>(sample), stream))) {}
+    std::uint32_t bits() { return hash32(m_key, ++m_count); }
+    float next() { return unitFloat(bits()); }
+
+   private:
+    std::uint32_t m_key;
+    std::uint32_t m_count = 0;
+  };
+
+  Reservoir<C> gathered(int x, int y, std::uint64_t sample) const {
+    PathStart<C> start = this->startOf(x, y, sample);
+    ReservoirDomain<C> domain;
+    if (!this->m_integrator.resamplingDomain(start.ray, start.wavelengths, this->m_context.sensor,
+                                             this->m_context.options.restir == Restir::Hero, domain)) {
+      return {};
+    }
+    const std::size_t pixel = this->pixelOf(x, y);
+    HashRandom random(this->m_context.options.seed, pixel, sample, kFreshStream);
+    const LightTable& lights = this->m_context.prepared.lights;
+    Reservoir<C> reservoir = m_sampler.fresh(domain, kCandidates, [&](int i) {
+      // One candidate from each of as many equal parts of the lights.
+      const auto bits = static_cast<std::uint32_t>(((static_cast<std::uint64_t>(i) << 32U) + random.bits()) /
+                                                   static_cast<std::uint64_t>(kCandidates));
+      const float u = random.next();
+      const float v = random.next();
+      return std::pair(lights.choose(bits, u, v), random.next());
+    });
+    if (sample % TileTracer::kEpoch != 0) {
+      const Reservoir<C>& before = m_kept[pixel];
+      m_sampler.merge(reservoir, before, std::min(before.confidence, kLongestHistory * kCandidates), random.next());
+    }
+    return reservoir;
+  }
+
+  ReservoirSampler<C> m_sampler;
+  std::vector<Reservoir<C>> m_fresh;
+  std::vector<Reservoir<C>> m_kept;
 };
 
 template <int C>
-std::unique_ptr<TileTracer> makeTileTracer(const PreparedScene& prepared, FilmSensor& sensor, std::uint32_t seed) {
-  if (prepared.materials.isDispersive()) {
-    return std::make_unique<LaneTracer<C, true>>(prepared, sensor, seed);
+std::unique_ptr<TileTracer> makeTileTracer(const TracerContext& context) {
+  const bool resamples = context.options.restir != Restir::Off && !context.prepared.lights.empty();
+  if (context.prepared.materials.isDispersive()) {
+    if (resamples) {
+      return std::make_unique<ReservoirTracer<C, true>>(context);
+    }
+    return std::make_unique<LaneTracer<C, true>>(context);
   }
-  return std::make_unique<LaneTracer<C, false>>(prepared, sensor, seed);
+  if (resamples) {
+    return std::make_unique<ReservoirTracer<C, false>>(context);
+  }
+  return std::make_unique<LaneTracer<C, false>>(context);
 }
 
 }  // namespace metamer::spectral_ref

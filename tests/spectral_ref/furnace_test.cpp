@@ -51,13 +51,23 @@ constexpr const char* kDiffuse =
     "  - sphere: {center: [0, 0, 0], radius: 1}\n    diffuse: 1\n"
     // A corner, so that light goes to and fro many times.
     "  - rectangle: {center: [0, -1.2, 0], half_u: [0, 0, 2], half_v: [2, 0, 0]}\n    diffuse: 1\n";
+constexpr const char* kConductor =
+    "  - sphere: {center: [-0.6, 0, 0], radius: 0.6}\n    conductor: {reflectance: 1, roughness: 0.8}\n"
+    "  - sphere: {center: [0.6, 0, 0], radius: 0.6}\n    conductor: {reflectance: 1, roughness: 0.1}\n";
+constexpr const char* kGlass = "  - sphere: {center: [0, 0, 0], radius: 1}\n    dielectric: {index: 1.5}\n";
+constexpr const char* kPrism =
+    "  - sphere: {center: [0, 0, 0], radius: 1}\n    dielectric: {index: {cauchy: [1.5, 0.01]}}\n";
 constexpr const char* kClearGel =
     "  - rectangle: {center: [0, 0, 1.5], half_u: [2, 0, 0], half_v: [0, 2, 0]}\n    gel: 1\n"
     "  - sphere: {center: [0, 0, 0], radius: 1}\n    diffuse: 1\n";
 
 INSTANTIATE_TEST_SUITE_P(Materials, FurnaceTest,
                          testing::Values(FurnaceCase{"diffuse", kDiffuse, 1}, FurnaceCase{"diffuse", kDiffuse, 4},
-                                         FurnaceCase{"diffuse", kDiffuse, 16}, FurnaceCase{"gel", kClearGel, 4}));
+                                         FurnaceCase{"diffuse", kDiffuse, 16}, FurnaceCase{"gel", kClearGel, 4},
+                                         FurnaceCase{"conductor", kConductor, 4},
+                                         FurnaceCase{"smooth glass", kGlass, 4},
+                                         FurnaceCase{"dispersive glass", kPrism, 4},
+                                         FurnaceCase{"dispersive glass", kPrism, 16}));
 
 TEST(FurnaceTest, AGreySphereLosesWhatItShould) {
   // A convex body in even light: each point sees the light alone, so its radiance is its reflectance.

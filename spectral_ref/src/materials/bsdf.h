@@ -30,11 +30,21 @@ float heroDensity(const Lanes<C>& density) {
   return density[0];
 }
 
+/// A density that does not depend on the hero.
+template <int C, bool kDispersive>
+Density<C, kDispersive> sameForAll(float density) {
+  if constexpr (kDispersive) {
+    return Lanes<C>::Constant(density);
+  } else {
+    return density;
+  }
+}
+
 /// A BSDF for two directions, in the frame of the surface.
 template <int C, bool kDispersive>
 struct BsdfValue {
-  Lanes<C> value = Lanes<C>::Zero();  ///< BSDF times |cos| of the incident direction
-  Density<C, kDispersive> pdf{};      ///< of drawing that direction, per steradian
+  Lanes<C> value = Lanes<C>::Zero();                               ///< BSDF times |cos| of the incident direction
+  Density<C, kDispersive> pdf = sameForAll<C, kDispersive>(0.0F);  ///< of drawing that direction, per steradian
 };
 
 /// A direction drawn from a BSDF.
@@ -42,7 +52,8 @@ template <int C, bool kDispersive>
 struct BsdfSample {
   Vec3 direction = Vec3::Zero();       ///< local frame, away from the surface
   Lanes<C> weight = Lanes<C>::Zero();  ///< BSDF times |cos| over the hero's density
-  Density<C, kDispersive> pdf{};       ///< of a delta: probability of the choice, 0 for lanes that would go elsewhere
+  Density<C, kDispersive> pdf =
+      sameForAll<C, kDispersive>(0.0F);  ///< of a delta: probability of the choice, 0 for lanes that would go elsewhere
   bool isDelta = false;
 };
 

@@ -8,14 +8,14 @@ namespace metamer::spectral_ref {
 /// Lambert's reflector on the front, black on the back.
 template <int C, bool kDispersive>
 struct DiffuseBsdf {
-  Lanes<C> reflectance;
+  Lanes<C> reflectance = Lanes<C>::Zero();
 
   BsdfValue<C, kDispersive> evaluate(const Vec3& out, const Vec3& in) const {
     BsdfValue<C, kDispersive> result;
     if (out.z() > 0.0F && in.z() > 0.0F) {
       const float cosine = in.z() * kInversePi;
       result.value = reflectance * cosine;
-      result.pdf = Density<C, kDispersive>(densityOf(cosine));
+      result.pdf = sameForAll<C, kDispersive>(cosine);
     }
     return result;
   }
@@ -24,18 +24,9 @@ struct DiffuseBsdf {
     if (out.z() > 0.0F) {
       result.direction = squareToCosineHemisphere(u, v);
       result.weight = reflectance;
-      result.pdf = densityOf(result.direction.z() * kInversePi);
+      result.pdf = sameForAll<C, kDispersive>(result.direction.z() * kInversePi);
     }
     return result;
-  }
-
- private:
-  static Density<C, kDispersive> densityOf(float density) {
-    if constexpr (kDispersive) {
-      return Lanes<C>::Constant(density);
-    } else {
-      return density;
-    }
   }
 };
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "metamer/spectral_ref/film.h"
 #include "metamer/spectral_ref/scene.h"
@@ -28,7 +30,7 @@ struct RenderOptions {
 class Renderer {
  public:
   /// @param scene    stays alive as long as the renderer
-  /// @param ranges   one range of samples to render; kept in Film::ranges() as they come in
+  /// @param firstSample  of the film; guiding and resampling take earlier ones as well, for what they teach
   /// @param threads  0: as many as there are
   /// @throws std::runtime_error where Embree cannot take the scene
   Renderer(const Scene& scene, const RenderOptions& options, std::uint64_t firstSample = 0, int threads = 0);
@@ -44,6 +46,9 @@ class Renderer {
 
   const Film& film() const;
   const RenderOptions& options() const;
+
+  /// Density of a pixel's wavelengths, per nm: uniform until the guide has learnt.
+  spectral::DomainSamples wavelengthDensity(int x, int y) const;
 
   /// All state as bytes, for a checkpoint; restore() goes on from there, bit by bit.
   std::vector<unsigned char> state() const;

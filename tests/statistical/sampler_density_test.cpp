@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every sampler against the density that it states: wavelengths, lights, BSDFs. And BSDFs against energy and
+// reciprocity.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "film_sensor.h"
+#include "light_table.h"
+#include "material_table.h"
+#include "spectral_ref/scene_fixture.h"
+#include "statistical/chi_square.h"
+#include "wavelength_guide.h"
+#include "wavelength_sampling.h"
+
+namespace metamer::spectral_ref {
+namespace {
+
+constexpr double kSignificance = 1e-4;
+
+class Random {
+ public:
+  float next() { return std::min(m_unit(m_engine), 0x1.fffffep-1F); }
+  std::uint32_t bits() { return static_cast<std::uint32_t>(m_engine()); }
+
+ private:
+  std::mt19937 m_engine{12345};
+  std::uniform_real_distribution<float> m_unit{0.0F, 1.0F};
+};
+
+WavelengthSet<4> someWavelengths() {
+  return sampleWavelengths<4>(UniformWavelengths(), 0.1F);
+}
+
+TEST(WavelengthDensityTest, EveryLaneFollowsTheGuideAndNoDensityIsZero) {
+  WavelengthGuide guide(3, 3, 4);
+  Random random;
+  std::vector<ExactSum> fine(kCells);
+  // Lines and a slope, and nothing at all in the last pixel.
+  for (std::size_t pixel = 0; pixel < 8; ++pixel) {
+    for (int i = 0; i < 200; ++i) {
+      const auto set = sampleWavelengths<4>(UniformWavelengths(), random.next());
+      Lanes<4> luminance;
+      for (int k = 0; k < 4; ++k) {
+        const int cell = set.cell[static_cast<std::size_t>(k)];
+        luminance[k] = (std::abs(cell - 166) < 3 ? 40.0F : 0.0F) + (cell > 200 ? 1.0F : 0.1F);
+      }
+      guide.learn<4>(pixel, set, luminance, fine);
+    }
+  }
+  guide.addFine(fine);
+  guide.build();
+  for (const std::size_t pixel : {std::size_t{0}, std::size_t{8}}) {
+    const auto density = guide.density(pixel);
+    double total = 0;
+    for (std::int32_t cell = 0; cell < kCells; ++cell) {
+      ASSERT_GE(density.density(cell), 0.99F * WavelengthGuide::kDefensive / kCells) << cell;
+      total += static_cast<double>(density.density(cell));
+    }
+    EXPECT_NEAR(total, 1.0, 1e-4);
+    constexpr int kDraws = 200000;
+    for (int lane = 0; lane < 4; ++lane) {
+      std::vector<double> counts(kCells);
+      std::vector<double> expected(kCells);
+      for (int i = 0; i < kDraws; ++i) {
+        const auto set = sampleWavelengths<4>(density, random.next());
+        const auto cell = static_cast<std::size_t>(set.cell[static_cast<std::size_t>(lane)]);
+        counts[cell] += 1;
+        ASSERT_NEAR(set.nm[lane], 380.0F + static_cast<float>(cell), 0.501F);
+        ASSERT_NEAR(set.weight[lane] * 4.0F * density.density(static_cast<std::int32_t>(cell)), 1.0F, 1e-3F);
+      }
+      for (std::int32_t cell = 0; cell < kCells; ++cell) {
+        expected[static_cast<std::size_t>(cell)] = kDraws * static_cast<double>(density.density(cell)) / total;
+      }
+      EXPECT_GT(chiSquareProbability(counts, expected), kSignificance) << "pixel " << pixel << " lane " << lane;
+    }
+  }
+}
+
+/// Directions by cells of equal solid angle.
+constexpr int kColumns = 24;
+constexpr int kRows = 16;
+std::size_t cellOf(const Vec3& d) {
+  float phi = std::atan2(d.y(), d.x()) / (2.0F * kPi);
+  phi -= std::floor(phi);
+  const int column = std::min(static_cast<int>(phi * kColumns), kColumns - 1);
+  const int row = std::clamp(static_cast<int>((d.z() + 1.0F) * 0.5F * kRows), 0, kRows - 1);
+  return static_cast<std::size_t>(row * kColumns + column);
+}
+template <typename Density>
+std::vector<double> expectedIn(const Density& density, double draws) {
+  constexpr int kFine = 48;
+  std::vector<double> expected(kColumns * kRows);
+  for (std::size_t cell = 0; cell < expected.size(); ++cell) {
+    double sum = 0;
+    for (int i = 0; i < kFine; ++i) {
+      for (int j = 0; j < kFine; ++j) {
+        const double z = ((static_cast<double>(cell / kColumns) + (i + 0.5) / kFine) / kRows) * 2.0 - 1.0;
+        const double phi = 2.0 * M_PI * (static_cast<double>(cell % kColumns) + (j + 0.5) / kFine) / kColumns;
+        const double sine = std::sqrt(1.0 - z * z);
+        sum += density(Vec3(static_cast<float>(sine * std::cos(phi)), static_cast<float>(sine * std::sin(phi)),
+                            static_cast<float>(z)));
+      }
+    }
+    expected[cell] = draws * sum / (kFine * kFine) * 4.0 * M_PI / (kColumns * kRows);
+  }
+  return expected;
+}
+
+class BsdfTest : public testing::TestWithParam<const char*> {
+ protected:
+  BsdfTest()
+      : scene(sceneOf(std::string("metamer_scene: 1\nshapes:\n  - sphere: {center: [0, 0, 0], radius: 1}\n    ") +
+                      GetParam() + "\n")),
+        spectra(scene.spectra),
+        materials(scene) {}
+
+  Bsdf<4, true> bsdf() const { return materials.bsdf<4, true>(0, spectra, someWavelengths()); }
+
+  Scene scene;
+  SpectrumTables spectra;
+  MaterialTable materials;
+  Random random;
+};
+
+TEST_P(BsdfTest, SamplesFollowTheirDensity) {
+  for (const Vec3& given : {Vec3(0.3F, 0.2F, 0.9F), Vec3(0.9F, 0.1F, 0.25F), Vec3(0.4F, 0.0F, -0.8F)}) {
+    const Vec3 out = given.normalized();
+    if (bsdf().isBlack(out)) {
+      continue;
+    }
+    constexpr int kDraws = 200000;
+    std::vector<double> counts(kColumns * kRows);
+    double found = 0;
+    for (int i = 0; i < kDraws; ++i) {
+      const auto sample = bsdf().sample(out, random.next(), random.next(), [&] { return random.next(); });
+      if (sample.pdf[0] > 0.0F) {
+        counts[cellOf(sample.direction)] += 1;
+        found += 1;
+      }
+    }
+    const auto expected =
+        expectedIn([&](const Vec3& in) { return static_cast<double>(bsdf().evaluate(out, in).pdf[0]); }, kDraws);
+    double total = 0;
+    for (const double value : expected) {
+      total += value;
+    }
+    // What is lost in sampling is missing from the density as well.
+    EXPECT_NEAR(found / total, 1.0, 5e-3) << GetParam() << " from " << out.transpose();
+    EXPECT_GT(chiSquareProbability(counts, expected), kSignificance) << GetParam() << " from " << out.transpose();
+  }
+}
+
+TEST_P(BsdfTest, EnergyAndReciprocity) {
+  const auto wavelengths = someWavelengths();
+  for (int i = 0; i < 200; ++i) {
+    const auto direction = [&] {
+      const Vec3 local = squareToCosineHemisphere(random.next(), random.next());
+      return Vec3(local.x(), local.y(), std::max(local.z(), 0.05F)).normalized();
+    };
+    const Vec3 a = direction();
+    const Vec3 b = direction();
+    const Lanes<4> forward = bsdf().evaluate(a, b).value / b.z();
+    const Lanes<4> backward = bsdf().evaluate(b, a).value / a.z();
+    for (int k = 0; k < 4; ++k) {
+      EXPECT_NEAR(forward[k], backward[k], 2e-4F * std::max(1.0F, forward[k])) << GetParam();
+    }
+  }
+  for (const float cosine : {0.15F, 0.5F, 0.95F}) {
+    const Vec3 out(std::sqrt(1.0F - cosine * cosine), 0.0F, cosine);
+    Eigen::Array4d sum = Eigen::Array4d::Zero();
+    constexpr int kDraws = 40000;
+    for (int i = 0; i < kDraws; ++i) {
+      const auto sample = bsdf().sample(out, random.next(), random.next(), [&] { return random.next(); });
+      // Radiance changes with the square of the index across a surface; power does not.
+      Lanes<4> weight = sample.weight;
+      if (sample.direction.z() < 0.0F && weight[0] > 0.0F) {
+        for (int k = 0; k < 4; ++k) {
+          const float n = static_cast<float>(
+              scene.materials[0].index.perNm[static_cast<std::size_t>(wavelengths.cell[static_cast<std::size_t>(k)])]);
+          weight[k] *= n * n;
+        }
+      }
+      sum += weight.cast<double>() / kDraws;
+    }
+    // Four standard errors of weights that spread by about their mean.
+    EXPECT_LT(sum.maxCoeff(), 1.0 + 4.0 / std::sqrt(kDraws)) << GetParam() << " at " << cosine;
+    std::printf("%s, cosine %.2f: gives back %.4f of the light\n", GetParam(), static_cast<double>(cosine), sum[0]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Materials, BsdfTest,
+                         testing::Values("diffuse: 0.9", "conductor: {reflectance: 0.9, roughness: 0.5}",
+                                         "conductor: {eta: 0.2, k: 3.5, roughness: 0.2}",
+                                         "dielectric: {index: 1.5, roughness: 0.4}",
+                                         "dielectric: {index: {cauchy: [1.5, 0.02]}, roughness: 0.3}"));
+
+TEST(LightDensityTest, DirectionsFollowTheDensityOfTheirHits) {
+  // All area lights and an environment at once, seen from one point.
+  const Scene scene = sceneOf(
+      "metamer_scene: 1\n"
+      "shapes:\n"
+      "  - rectangle: {center: [0, 3, 0], half_u: [1, 0, 0], half_v: [0, 0, 1.5]}\n    emission: 2\n"
+      "  - sphere: {center: [3, 0.5, 1], radius: 1}\n    emission: 1\n"
+      "lights: [{environment: {emission: 0.3}}]\n");
+  const EmbreeScene shapes(scene);
+  const LightTable lights(scene, shapes);
+  const Vec3 from(0.2F, -0.5F, 0.1F);
+  Random random;
+  constexpr int kDraws = 300000;
+  std::vector<double> counts(kColumns * kRows);
+  for (int i = 0; i < kDraws; ++i) {
+    const LightSample sample = lights.sample(lights.choose(random.bits(), random.next(), random.next()), from);
+    ASSERT_GT(sample.pdf, 0.0F);
+    counts[cellOf(sample.direction)] += 1;
+  }
+  const auto expected = expectedIn(
+      [&](const Vec3& direction) {
+        // The environment lies behind everything; the shapes do not hide each other here.
+        double density = static_cast<double>(lights.environmentPdf(direction));
+        Hit hit;
+        const Ray ray{from, direction};
+        if (shapes.intersect(ray, hit) && hit.emitter != kNone) {
+          density += static_cast<double>(lights.pdf(hit, from, direction));
+        }
+        return density;
+      },
+      kDraws);
+  EXPECT_GT(chiSquareProbability(counts, expected), kSignificance);
+}
+
+}  // namespace
+}  // namespace metamer::spectral_ref
