@@ -133,10 +133,11 @@ def lights(bench):
     picture = np.stack([np.exp(-8 * (x - 0.3) ** 2), 0.2 + x, np.exp(-9 * (y - 0.5) ** 2)], -1)
     picture = (picture * rng.uniform(0, 1, (18, 32, 1)) ** 3).astype(np.float32)
     OpenEXR.File({}, {"RGB": picture}).write(str(bench.folder / "wall.exr"))
-    # Small triangles all through the box: those nearby light a point, and power says nothing of that.
+    # Small triangles near the back wall, facing it: those nearby light a point, and power says nothing of that. The camera
+    # sees their black backs.
     count = 100_000
-    centres = rng.uniform([-1.9, 0.05, -0.9], [1.9, 2.9, 2.9], (count, 1, 3))
-    corners = centres + rng.normal(0, 2e-3, (count, 3, 3))
+    centres = rng.uniform([-1.9, 0.05, -0.9], [1.9, 2.9, -0.6], (count, 1, 3))
+    corners = centres + 3e-3 * np.array([[0, 0, 0], [0, 1, 0], [1, 0, 0]])
     lines = [f"v {a:.6f} {b:.6f} {c:.6f}" for a, b, c in corners.reshape(-1, 3)]
     lines += [f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}" for i in range(count)]
     (bench.folder / "many.obj").write_text("\n".join(lines) + "\n")
