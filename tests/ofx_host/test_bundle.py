@@ -25,7 +25,7 @@ class Bundle(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = Path(temporary.name)
-        output("cmake", "--install", BUILD, "--prefix", cls.folder / "prefix")
+        output("cmake", "--install", BUILD, "--component", "ofx", "--prefix", cls.folder / "prefix")
         cls.bundle = cls.folder / "prefix/OFX/metamer.ofx.bundle"
         cls.library = cls.bundle / "Contents/Linux-x86-64/metamer.ofx"
 
