@@ -5,247 +5,86 @@
 #include <cmath>
 #include <limits>
 
-#include "metamer/spectral/colorimetry.h"
+#include "chromaticity_probe.h"
 #include "parallel.h"
-#include "perceptual_form.h"
 
 namespace metamer::ocio {
 namespace {
 
-/// Where deviations are judged: the error protocol's luminance.
-constexpr double kLuminance = 0.18;
 /// Weight of a sample beyond what reflectances can make.
 constexpr double kOutsideWeight = 1e-3;
-/// Deviation of coordinates that the metric is taken by.
-constexpr double kStep = 1e-3;
 /// Probes along a side for the first placing of the ticks.
 constexpr int kProbesPerSide = 129;
-/// Times that they are placed again, by probes that follow them.
-constexpr int kRefinements = 1;
-/// Power mean over a strip of the bending in it; and the least density of ticks against the mean.
-constexpr double kBendingPower = 1.5;
-constexpr double kLeastDensity = 0.3;
 /// Samples along a side of a cell.
 constexpr int kSamplesPerSide = 4;
+/// Times that the ticks are moved toward what errs; rounds of weighted least squares for each, and at the end.
+constexpr int kMoves = 5;
+constexpr int kRoundsOfAMove = 2;
+constexpr int kRounds = 5;
+/// A sample's squared weight grows with its squared error, from this part of the 99th percentile to all of it.
+constexpr double kLeastPart = 0.3;
+constexpr double kQuantile = 0.99;
+/// Errors beyond this are weighed by what they really are, within a factor, where the quadratic form misjudges them.
+constexpr double kSmall = 0.05;
+constexpr double kMostBeyond = 3.0;
+/// Power of an error, up to a part of the 99th percentile, that draws ticks to its strip.
+constexpr double kStripPower = 5.0;
+constexpr double kMostPart = 1.5;
+/// A largest error of so many 99th percentiles is as bad as they are.
+constexpr double kMaximumToQuantile = 6.0;
 
-bool usable(const Eigen::Vector3d& value) {
-  return value.allFinite() && value.cwiseAbs().maxCoeff() < 1e3;
-}
-
-/// The colour at a point of the plane, at the protocol's luminance.
-Eigen::Vector3d colourAt(const ChromaticityPlane& plane, const Eigen::RowVector3d& luminance,
-                         const Eigen::Vector2d& point) {
-  const Eigen::Vector3d rgb = plane.input.colour({point.x(), point.y(), 0.0});
-  const double y = luminance * rgb;
-  return rgb * (kLuminance / std::max(y, 0.01 * rgb.norm()));
-}
-
-/// What a node or sample should hold: output chromaticity, and output over input amount in stops.
-Eigen::Vector3d tableValue(const ChromaticityPlane& plane, const Eigen::Vector3d& in, const Eigen::Vector3d& out) {
-  Eigen::Vector3d value = plane.output.coordinates(out);
-  value[2] -= plane.input.coordinates(in)[2];
-  return value;
-}
-
-/// CIEDE2000 as a quadratic form of small deviations of the output coordinates.
-Eigen::Matrix3d perceptualMetric(const ChromaticityPlane& plane, const Eigen::Matrix3d& xyzFromRgb,
-                                 const Eigen::Vector3d& white, const Eigen::Vector3d& out) {
-  const Eigen::Vector3d centre = plane.output.coordinates(out);
-  const Eigen::Vector3d lab = spectral::lab(xyzFromRgb * out, white);
-  return perceptualForm(
-      [&](const Eigen::Vector3d& deviation) {
-        return spectral::deltaE2000(lab, spectral::lab(xyzFromRgb * plane.output.colour(centre + deviation), white));
-      },
-      kStep);
-}
-
-/// The transform at a point; where it has no amount there, at a point nearer to white.
-Eigen::Vector3d valueAt(const ChromaticityPlane& plane, const sip::SpectralTransform& transform,
-                        const Eigen::RowVector3d& luminance, const Eigen::Vector2d& point) {
-  for (double t = 1.0; t > 0.0; t -= 1.0 / 64.0) {
-    const Eigen::Vector3d in = colourAt(plane, luminance, plane.white + t * (point - plane.white));
-    Eigen::Vector3d value = tableValue(plane, in, transform.apply(in));
-    if (usable(value)) {
-      return value;
-    }
-  }
-  return {point.x(), point.y(), 0.0};
-}
-
-void sampleNodes(PlaneLattice& lattice, const ChromaticityPlane& plane, const sip::SpectralTransform& transform) {
-  const Eigen::RowVector3d luminance = transform.space().xyzFromRgb().row(1);
+void sampleNodes(PlaneLattice& lattice, const ChromaticityPlane& plane, const ChromaticityProbe& probe) {
   lattice.nodes.resize(lattice.ticks[0].size() * lattice.ticks[1].size());
   parallelFor(lattice.size(), [&](int i) {
     for (int j = 0; j < lattice.size(); ++j) {
-      lattice.nodes[lattice.index(i, j)] = valueAt(plane, transform, luminance, lattice.place(i, j));
-    }
-  });
-}
-
-/// Ticks spread so that a cumulated density grows by equal steps on either side of white, which gets a tick.
-/// @param at       rising positions 0 ... 1
-/// @param density  between a position and the next
-std::vector<double> spreadTicks(const std::vector<double>& at, const std::vector<double>& density, double white,
-                                int count) {
-  std::vector<double> sum(at.size(), 0.0);
-  for (std::size_t k = 1; k < at.size(); ++k) {
-    sum[k] = sum[k - 1] + density[k - 1] * (at[k] - at[k - 1]);
-  }
-  const auto interpolate = [](const std::vector<double>& x, const std::vector<double>& y, double value) {
-    const auto above = std::clamp<std::ptrdiff_t>(std::upper_bound(x.begin(), x.end(), value) - x.begin(), 1,
-                                                  static_cast<std::ptrdiff_t>(x.size()) - 1);
-    const double t = (value - x[above - 1]) / (x[above] - x[above - 1]);
-    return y[above - 1] + t * (y[above] - y[above - 1]);
-  };
-  const double atWhite = interpolate(at, sum, white);
-  const int below = std::clamp(static_cast<int>(std::lround((count - 1) * atWhite / sum.back())), 1, count - 2);
-  const double steps = tickSteps(count);
-  std::vector<double> ticks;
-  for (int k = 0; k < count; ++k) {
-    const double target =
-        k <= below ? atWhite * k / below : atWhite + (sum.back() - atWhite) * (k - below) / (count - 1 - below);
-    // On the curve's entries, so that a look-up in it bends nowhere else.
-    double tick = std::round(interpolate(sum, at, target) * steps) / steps;
-    tick = std::max(tick, ticks.empty() ? 0.0 : ticks.back() + 1.0 / steps);
-    ticks.push_back(std::min(tick, 1.0 - static_cast<double>(count - 1 - k) / steps));
-  }
-  return ticks;
-}
-
-struct PlacedTicks {
-  std::array<std::vector<double>, 2> ticks;
-  double bending = 0;  ///< what is left to err, up to a factor that depends on the count alone
-};
-
-/// Ticks that crowd where the transform bends, along either coordinate, as seen on a grid of probes.
-PlacedTicks placeTicks(const std::array<std::vector<double>, 2>& probes, const ChromaticityPlane& plane,
-                       const sip::SpectralTransform& transform, int count) {
-  const Eigen::Matrix3d xyzFromRgb = transform.space().xyzFromRgb();
-  const Eigen::RowVector3d luminance = xyzFromRgb.row(1);
-  struct Probe {
-    bool feasible = false;
-    Eigen::Vector3d value;
-    Eigen::Matrix3d metric;
-  };
-  const std::size_t rows = probes[0].size();
-  const std::size_t columns = probes[1].size();
-  std::vector<Probe> grid(rows * columns);
-  parallelFor(static_cast<int>(rows), [&](int i) {
-    for (std::size_t j = 0; j < columns; ++j) {
-      const Eigen::Vector3d in = colourAt(plane, luminance, {probes[0][i], probes[1][j]});
-      if (!plane.isFeasible(in)) {
-        continue;
-      }
-      Probe& probe = grid[static_cast<std::size_t>(i) * columns + j];
-      const Eigen::Vector3d out = transform.apply(in);
-      probe.value = tableValue(plane, in, out);
-      if (usable(probe.value)) {
-        probe.metric = perceptualMetric(plane, xyzFromRgb, transform.whiteXyz(), out);
-        probe.feasible = probe.metric.allFinite();
-      }
-    }
-  });
-  PlacedTicks result;
-  for (int axis = 0; axis < 2; ++axis) {
-    const auto& at = probes[axis];
-    const std::size_t across = probes[1 - axis].size();
-    const auto probe = [&](std::size_t along, std::size_t other) -> const Probe& {
-      return axis == 0 ? grid[along * columns + other] : grid[other * columns + along];
-    };
-    std::vector<double> density(at.size() - 1, 0.0);
-    for (std::size_t k = 1; k + 1 < at.size(); ++k) {
-      double bending = 0.0;
-      for (std::size_t other = 0; other < across; ++other) {
-        const Probe& before = probe(k - 1, other);
-        const Probe& here = probe(k, other);
-        const Probe& after = probe(k + 1, other);
-        if (before.feasible && here.feasible && after.feasible) {
-          const double left = at[k] - at[k - 1];
-          const double right = at[k + 1] - at[k];
-          const Eigen::Vector3d second =
-              2.0 / (left + right) * ((after.value - here.value) / right - (here.value - before.value) / left);
-          bending += std::pow(std::max(0.0, second.dot(here.metric * second)), 0.5 * kBendingPower);
+      const Eigen::Vector2d point = lattice.place(i, j);
+      Eigen::Vector3d& node = lattice.nodes[lattice.index(i, j)];
+      node = {point.x(), point.y(), 0.0};
+      // Where the transform has no amount: its value at a point nearer to white.
+      for (double t = 1.0; t > 0.0; t -= 1.0 / 64.0) {
+        const auto answer = probe.ask(plane.white + t * (point - plane.white));
+        if (answer.isUsable) {
+          node = answer.value;
+          break;
         }
       }
-      const double needed = std::pow(bending / static_cast<double>(across), 0.5 / kBendingPower);
-      density[k - 1] = std::max(density[k - 1], needed);
-      density[k] = std::max(density[k], needed);
     }
-    // The outermost strips have no probe beyond them to bend against.
-    const auto isBent = [](double value) { return value > 0.0; };
-    const auto first = std::find_if(density.begin(), density.end(), isBent);
-    if (first != density.end()) {
-      std::fill(density.begin(), first, *first);
-      const auto last = std::find_if(density.rbegin(), density.rend(), isBent);
-      std::fill(density.rbegin(), last, *last);
-    }
-    double mean = 0.0;
-    for (std::size_t k = 0; k + 1 < at.size(); ++k) {
-      mean += density[k] * (at[k + 1] - at[k]);
-    }
-    double total = 0.0;
-    for (std::size_t k = 0; k + 1 < at.size(); ++k) {
-      density[k] = std::max(density[k], kLeastDensity * mean) + 1e-12;
-      total += density[k] * (at[k + 1] - at[k]);
-    }
-    result.ticks[axis] = spreadTicks(at, density, plane.white[axis], count);
-    result.bending += total * total;
-  }
-  return result;
+  });
 }
 
-std::vector<double> evenTicks(int count) {
-  std::vector<double> ticks;
-  ticks.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    ticks.push_back(static_cast<double>(k) / (count - 1));
-  }
-  return ticks;
-}
+struct TableSample {
+  LatticeSample fit;
+  ChromaticityProbe::Answer exact;
+  double area = 0;  ///< in CIE xy: its share among the error protocol's probes
+};
 
-/// Ticks with others evenly between.
-std::vector<double> subdivided(const std::vector<double>& ticks, int parts) {
-  std::vector<double> result;
-  for (std::size_t k = 0; k + 1 < ticks.size(); ++k) {
-    for (int part = 0; part < parts; ++part) {
-      result.push_back(ticks[k] + (ticks[k + 1] - ticks[k]) * part / parts);
-    }
-  }
-  result.push_back(ticks.back());
-  return result;
-}
-
-std::vector<LatticeSample> takeSamples(const PlaneLattice& lattice, const ChromaticityPlane& plane,
-                                       const sip::SpectralTransform& transform) {
-  const Eigen::Matrix3d xyzFromRgb = transform.space().xyzFromRgb();
-  const Eigen::RowVector3d luminance = xyzFromRgb.row(1);
-  const Eigen::Vector3d white = transform.whiteXyz();
+std::vector<TableSample> takeSamples(const PlaneLattice& lattice, const ChromaticityProbe& probe) {
   const int side = kSamplesPerSide * (lattice.size() - 1);
-  const auto centre = [&](int axis, int k) {
+  const auto width = [&](int axis, int k) {
     const auto cell = static_cast<std::size_t>(k / kSamplesPerSide);
-    const double within = (k % kSamplesPerSide + 0.5) / kSamplesPerSide;
-    return lattice.ticks[axis][cell] + within * (lattice.ticks[axis][cell + 1] - lattice.ticks[axis][cell]);
+    return lattice.ticks[axis][cell + 1] - lattice.ticks[axis][cell];
   };
-  std::vector<std::vector<LatticeSample>> rows(static_cast<std::size_t>(side));
+  const auto centre = [&](int axis, int k) {
+    const double within = (k % kSamplesPerSide + 0.5) / kSamplesPerSide;
+    return lattice.ticks[axis][static_cast<std::size_t>(k / kSamplesPerSide)] + within * width(axis, k);
+  };
+  std::vector<std::vector<TableSample>> rows(static_cast<std::size_t>(side));
   parallelFor(side, [&](int i) {
     for (int j = 0; j < side; ++j) {
       const Eigen::Vector2d point(centre(0, i), centre(1, j));
-      const Eigen::Vector3d in = colourAt(plane, luminance, point);
-      const bool feasible = plane.isFeasible(in);
-      if (!feasible && (i % kSamplesPerSide != 1 || j % kSamplesPerSide != 1)) {
-        continue;
-      }
-      const Eigen::Vector3d out = transform.apply(in);
-      const Eigen::Vector3d value = tableValue(plane, in, out);
-      if (usable(value)) {
-        const Eigen::Matrix3d metric = perceptualMetric(plane, xyzFromRgb, white, out);
+      // Beyond what reflectances can make one sample a cell is enough.
+      const bool isFirst = i % kSamplesPerSide == 1 && j % kSamplesPerSide == 1;
+      const auto answer = isFirst ? probe.ask(point) : probe.askFeasible(point);
+      if (answer.isUsable) {
+        const Eigen::Matrix3d metric = probe.metric(answer);
         if (metric.allFinite()) {
-          rows[static_cast<std::size_t>(i)].push_back({point, value, feasible ? metric : kOutsideWeight * metric});
+          rows[static_cast<std::size_t>(i)].push_back(
+              {{point, answer.value, metric}, answer, probe.xyArea(point, width(0, i) * width(1, j))});
         }
       }
     }
   });
-  std::vector<LatticeSample> samples;
+  std::vector<TableSample> samples;
   for (const auto& row : rows) {
     samples.insert(samples.end(), row.begin(), row.end());
   }
@@ -263,6 +102,96 @@ std::size_t whiteNode(const PlaneLattice& lattice, const Eigen::Vector2d& white)
   return lattice.index(node[0], node[1]);
 }
 
+/// Errors of a lattice at the feasible samples, 0 at the others.
+struct Errors {
+  std::vector<double> full;
+  double quantile = 0;  ///< as many of the error protocol's probes are worse as the 99th percentile says
+  double largest = 0;
+
+  Errors(const PlaneLattice& lattice, const std::vector<TableSample>& samples, const ChromaticityProbe& probe)
+      : full(samples.size(), 0.0) {
+    std::vector<std::size_t> order;
+    double total = 0.0;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      if (samples[k].exact.isFeasible) {
+        full[k] = probe.error(samples[k].exact, lattice.at(samples[k].fit.point));
+        largest = std::max(largest, full[k]);
+        total += samples[k].area;
+        order.push_back(k);
+      }
+    }
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return full[a] < full[b]; });
+    double sum = 0.0;
+    for (const std::size_t k : order) {
+      sum += samples[k].area;
+      quantile = full[k];
+      if (sum >= kQuantile * total) {
+        break;
+      }
+    }
+    quantile = std::max(quantile, 1e-9);
+  }
+
+  /// What is to be made small.
+  double badness() const { return std::max(quantile, largest / kMaximumToQuantile); }
+};
+
+/// Solves the nodes, again and again with more weight on what is far off.
+Errors fitNodes(PlaneLattice& lattice, const std::vector<TableSample>& samples, std::size_t held,
+                const ChromaticityProbe& probe, int rounds) {
+  const std::vector<Eigen::Vector3d> start = lattice.nodes;
+  std::vector<double> weights(samples.size(), 1.0);
+  std::vector<LatticeSample> weighted(samples.size());
+  for (int round = 1;; ++round) {
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      weighted[k] = samples[k].fit;
+      weighted[k].metric *= samples[k].exact.isFeasible ? weights[k] : kOutsideWeight;
+    }
+    lattice.nodes = start;
+    fitLattice(lattice, weighted, held);
+    Errors errors(lattice, samples, probe);
+    if (round == rounds) {
+      return errors;
+    }
+    double sum = 0.0;
+    double count = 0.0;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      if (!samples[k].exact.isFeasible) {
+        continue;
+      }
+      const LatticeSample& sample = samples[k].fit;
+      const Eigen::Vector3d deviation = lattice.at(sample.point) - sample.value;
+      const double quadratic = std::sqrt(std::max(0.0, deviation.dot(sample.metric * deviation)));
+      const double part = std::clamp(errors.full[k] / errors.quantile, kLeastPart, 1.0);
+      const double beyond =
+          quadratic > kSmall ? std::clamp(errors.full[k] / quadratic, 1.0 / kMostBeyond, kMostBeyond) : 1.0;
+      // Half way from the last weights, which keeps them from swinging.
+      weights[k] = std::sqrt(weights[k]) * part * beyond;
+      sum += weights[k];
+      count += 1.0;
+    }
+    for (double& weight : weights) {
+      weight *= count / sum;
+    }
+  }
+}
+
+/// How much of the errors lies between one tick and the next.
+PlaneTicks stripErrors(const PlaneLattice& lattice, const std::vector<TableSample>& samples, const Errors& errors) {
+  PlaneTicks strips;
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto& along = lattice.ticks[axis];
+    strips[axis].assign(along.size() - 1, 0.0);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const auto above = std::upper_bound(along.begin() + 1, along.end() - 1, samples[k].fit.point[axis]);
+      const double part = std::min(errors.full[k] / errors.quantile, kMostPart);
+      strips[axis][static_cast<std::size_t>(above - along.begin()) - 1] +=
+          samples[k].area * std::pow(part, kStripPower);
+    }
+  }
+  return strips;
+}
+
 }  // namespace
 
 ChromaticityTable buildChromaticityTable(const sip::TransformSpec& spec, const sip::SpectralTransform& transform,
@@ -277,15 +206,31 @@ ChromaticityTable buildChromaticityTable(const sip::TransformSpec& spec, const s
                                      [](const auto& p, const auto& q) { return p.bending < q.bending; });
   ChromaticityTable table{planes[static_cast<std::size_t>(best - placed.begin())], {best->ticks, {}}};
   // Again from where the ticks now lie, which resolves the narrow strips.
-  for (int round = 0; round < kRefinements; ++round) {
-    const std::array probes = {subdivided(table.lattice.ticks[0], 2), subdivided(table.lattice.ticks[1], 2)};
-    table.lattice.ticks = placeTicks(probes, table.plane, transform, size).ticks;
+  const PlaneTicks probes = {subdivided(table.lattice.ticks[0], 2), subdivided(table.lattice.ticks[1], 2)};
+  table.lattice.ticks = placeTicks(probes, table.plane, transform, size).ticks;
+  const ChromaticityProbe probe(table.plane, transform);
+  sampleNodes(table.lattice, table.plane, probe);
+  if (!fitted) {
+    return table;
   }
-  sampleNodes(table.lattice, table.plane, transform);
-  if (fitted) {
-    fitLattice(table.lattice, takeSamples(table.lattice, table.plane, transform),
-               whiteNode(table.lattice, table.plane.white));
+  PlaneLattice lattice = table.lattice;
+  double least = std::numeric_limits<double>::infinity();
+  for (int move = 0; move <= kMoves; ++move) {
+    const std::vector<TableSample> samples = takeSamples(lattice, probe);
+    if (samples.empty()) {
+      return table;
+    }
+    const std::vector<Eigen::Vector3d> own = lattice.nodes;
+    const Errors errors = fitNodes(lattice, samples, whiteNode(lattice, table.plane.white), probe, kRoundsOfAMove);
+    if (errors.badness() < least) {
+      least = errors.badness();
+      table.lattice = {lattice.ticks, own};
+    }
+    lattice.ticks = movedTicks(lattice.ticks, stripErrors(lattice, samples, errors), table.plane.white);
+    sampleNodes(lattice, table.plane, probe);
   }
+  fitNodes(table.lattice, takeSamples(table.lattice, probe), whiteNode(table.lattice, table.plane.white), probe,
+           kRounds);
   return table;
 }
 

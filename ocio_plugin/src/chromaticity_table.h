@@ -2,15 +2,10 @@
 #pragma once
 
 #include "chromaticity_plane.h"
+#include "chromaticity_ticks.h"
 #include "lattice_fit.h"
 
 namespace metamer::ocio {
-
-/// Ticks of a table lie on multiples of 1 / tickSteps(size), so that a curve with this many steps bends at them
-/// exactly. A small table's error is far above what finer steps would save, and its curve would be most of its file.
-constexpr int tickSteps(int size) {
-  return size < 48 ? 1024 : 4096;
-}
 
 /// A spectral transform over the plane of chromaticity. A node holds the output's (a, b), and the output's amount less
 /// the input's, in stops. What lies between the nodes is exact where the transform is its unconstrained matrix.
@@ -19,7 +14,8 @@ struct ChromaticityTable {
   PlaneLattice lattice;
 };
 
-/// Chooses the plane, crowds the nodes where the transform bends, and solves their values.
+/// Chooses the plane, crowds the nodes where the transform bends, solves their values, and moves the nodes on toward
+/// what still errs.
 /// @param spec    what `transform` was made from
 /// @param size    nodes along a side
 /// @param fitted  false: the transform's own values at the nodes

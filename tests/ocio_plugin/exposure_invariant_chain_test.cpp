@@ -30,7 +30,8 @@ PixelProcessor chainOf(const sip::TransformSpec& spec, const ChainOptions& optio
 
 class ChainPairTest : public testing::TestWithParam<std::size_t> {};
 
-// The goal of the design, over exposures twice as wide as the protocol's.
+// The goal of the design is 0.5 and 3, over exposures twice as wide as the protocol's. Under FL11, whose lines cut the
+// plane into many narrow cones, 65 nodes a side do not reach it.
 TEST_P(ChainPairTest, HoldsTheProtocol) {
   const auto& [from, to] = sip::lightPairs()[GetParam()];
   const sip::TransformSpec spec = sip::specOf(from, to);
@@ -39,7 +40,7 @@ TEST_P(ChainPairTest, HoldsTheProtocol) {
   const auto report = protocol.measure([&](std::span<float> rgba) { processor.apply(rgba); });
   std::printf("%s -> %s: mean %.3f p99 %.3f max %.3f (%s)\n", from.c_str(), to.c_str(), report.mean, report.p99,
               report.max, report.worstProbe.c_str());
-  EXPECT_LE(report.p99, 1.0);
+  EXPECT_LE(report.p99, from == "FL11" ? 0.75 : 0.5);
   EXPECT_LE(report.max, 3.0);
 }
 
@@ -50,7 +51,12 @@ class ChainTest : public testing::Test {
   ChainTest() : m_spec(sip::specOf("D65", "HP1")), m_transform(m_spec, kBandCount) {}
   sip::TransformSpec m_spec;
   sip::SpectralTransform m_transform;
-  PixelProcessor m_chain{exposureInvariantChain(m_spec, m_transform)};
+  /// Built once: its build takes longer than any of the tests.
+  static const PixelProcessor& builtChain() {
+    static const PixelProcessor chain = chainOf(sip::specOf("D65", "HP1"));
+    return chain;
+  }
+  const PixelProcessor& m_chain = builtChain();
 };
 
 // The amount is a float between 0 and 1 that stands for 57 stops: a unit in its last place is 2.4e-6 of the light, and
@@ -108,7 +114,7 @@ TEST_F(ChainTest, GreyRampIsMonotoneAndHasOneColour) {
 TEST_F(ChainTest, NeutralsStayNeutralWhereTheEyeAdapts) {
   sip::TransformSpec spec = m_spec;
   spec.adaptation = 1.0;
-  const PixelProcessor chain = chainOf(spec);
+  const PixelProcessor chain = chainOf(spec, {.size = 33});
   for (const float grey : {1e-4F, 0.18F, 60.0F}) {
     const auto result = applied(chain, {grey, grey, grey});
     for (std::size_t k = 0; k < 3; ++k) {
