@@ -23,6 +23,9 @@ namespace {
 /// 0.003 in the CIE 1931 observer, every other at least 0.13.
 constexpr double kRankTolerance = 0.05;
 
+/// A channel whose white is this much darker than the brightest one's is dark.
+constexpr double kDarkChannel = 1e-12;
+
 /// Step of the differences that linearise a transform with a prior, relative to the colour: far below the width of
 /// any kernel, far above rounding.
 constexpr double kDifferenceStep = 1e-5;
@@ -134,6 +137,11 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   }
   const PreparedPipeline input = prepare(spec.input, spec.training, spec.standardObserver);
   const PreparedPipeline output = prepare(spec.output, spec.training, spec.standardObserver);
+  // A channel without any light has no white to be normalised by: low-pressure sodium leaves an eye's blue one dark.
+  if (!(input.white.minCoeff() > kDarkChannel * input.white.maxCoeff())) {
+    throw InputError(spec.input.illuminant.name(), "input.observer", spec.input.observer.name,
+                     "gets nothing from this light in one of its channels; use another observer or another light");
+  }
   const double exposure = spec.keepExposure ? output.filterTransmission / input.filterTransmission : 1.0;
   state->identity = input.light == output.light && input.curves == output.curves &&
                     input.xyzFromResponse == output.xyzFromResponse && exposure == 1.0;

@@ -286,6 +286,19 @@ TEST(SpectralTransformTest, ErrorsNameWhatGivesNoLight) {
   EXPECT_NE(errorOf([&] { SpectralTransform transform(spec); }).find("training"), std::string::npos);
 }
 
+TEST(SpectralTransformTest, AChannelThatTheLightLeavesDarkIsRefused) {
+  // Low-pressure sodium, one line at 590 nm, where the blue curve of CIE 1964 is zero: no white to normalise by.
+  TransformSpec spec = specOf("LPS", "D65");
+  spec.input.observer = testLibrary().observer("CIE 1964 10");
+  const std::string error = errorOf([&] { SpectralTransform transform(spec); });
+  EXPECT_NE(error.find("LPS"), std::string::npos) << error;
+  EXPECT_NE(error.find("CIE 1964 10"), std::string::npos) << error;
+  // As the output it is a light like any other.
+  spec = specOf("D65", "LPS");
+  spec.output.observer = testLibrary().observer("CIE 1964 10");
+  EXPECT_TRUE(SpectralTransform(spec).apply(Eigen::Vector3d(0.2, 0.5, 0.3)).allFinite());
+}
+
 TEST(SpectralTransformTest, PipelinesWithoutOverlap) {
   TransformSpec spec = specOf("D65", "D65");
   const auto power = spectral::SpectralQuantity::SpectralPowerDistribution;
