@@ -26,6 +26,9 @@ constexpr double kRankTolerance = 0.05;
 /// A channel whose white is this much darker than the brightest one's is dark.
 constexpr double kDarkChannel = 1e-12;
 
+/// Of a band's sensitivity over the observer's best: below it, a wavelength is at the end of the observer's range.
+constexpr double kFaintest = 1e-2;
+
 /// Step of the differences that linearise a transform with a prior, relative to the colour: far below the width of
 /// any kernel, far above rounding.
 constexpr double kDifferenceStep = 1e-5;
@@ -43,6 +46,22 @@ Eigen::Matrix3Xd signalBasis(const Eigen::Matrix3Xd& weights, double& conditionN
     return Eigen::Matrix3d::Identity();
   }
   return svd.matrixU().leftCols(rank);
+}
+
+/// The weights of the bands that the observer sees at least kFaintest as well as its best. At the ends of a camera's
+/// range its channels are noise, whose ratios would widen the cone by colours that take reflectances of thousands.
+Eigen::Matrix3Xd clearlySeen(const Eigen::Matrix3Xd& weights,
+                             const Eigen::Matrix<double, spectral::kDomainSize, 3>& curves) {
+  const int bandCount = static_cast<int>(weights.cols());
+  const Eigen::RowVectorXd sensitivity =
+      bandWeights(spectral::DomainSamples::Ones(), curves, bandCount).cwiseAbs().colwise().sum();
+  std::vector<Eigen::Index> seen;
+  for (Eigen::Index b = 0; b < weights.cols(); ++b) {
+    if (sensitivity[b] >= kFaintest * sensitivity.maxCoeff()) {
+      seen.push_back(b);
+    }
+  }
+  return weights(Eigen::all, seen);
 }
 
 /// Scales by a power of two so that the largest component lies in [0.5, 1): the result of a colour and of the same
@@ -179,7 +198,7 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   Eigen::Matrix3Xd rows = Eigen::Matrix3Xd::Zero(3, bandCount);
   rows.topRows(state->basis.cols()) = state->basis.transpose() * weights;
   state->solver.emplace(rows);
-  state->cone.emplace(weights, state->basis);
+  state->cone.emplace(clearlySeen(weights, input.curves), state->basis);
 
   const Eigen::Matrix3d matrix = state->rgbFromSpectrum * state->onResponse(state->solver->unconstrained());
   const Eigen::Matrix3d ordinaryAdaptation =

@@ -20,6 +20,7 @@ RECIPES = {
     "awg4_to_a": "space: ARRI LogC4\ninput: {illuminant: D65}\noutput: {illuminant: A, adaptation: 1}",
     "nothing": "input: {illuminant: D65}\noutput: {illuminant: D65}",
 }
+LOG_RECIPE = "awg4_to_a"
 SIZE = "17"  # what is tested here does not depend on it
 
 
@@ -60,6 +61,10 @@ class Configs(unittest.TestCase):
             if kind == "view":
                 # PQ of a negative is mirrored by later releases and clipped by earlier ones.
                 one, other = np.maximum(one, 0), np.maximum(other, 0)
+            if name.startswith(LOG_RECIPE):
+                # A signal above 1 stands for more than 469 times white there, and for what is beyond any precision.
+                held = (run_config.PROBES <= 1).all(axis=1)
+                one, other = one[held], other[held]
             np.testing.assert_allclose(one, other, rtol=2e-4, atol=2e-5, err_msg=f"{kind} {name}")
 
     def test_new_config_runs_alike_in_both_releases(self):
