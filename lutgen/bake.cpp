@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/ocio/bake.h"
 
+#include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 
 #include "commands.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/ocio/working_space.h"
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
 #include "overrides.h"
 
 namespace metamer::lutgen {
@@ -22,21 +26,97 @@ struct BakeArguments {
   std::string shaper;
   int size = 0;
   bool sampled = false;
+  std::optional<double> tolerance;
+  std::vector<int> stops;
+  int shaperSize = 0;
+  std::optional<std::string> inputSpace;
+  std::optional<std::string> outputSpace;
+  std::string config;
+  std::vector<std::string> luts;
+  bool toStdout = false;
   Overrides overrides;
 };
 
-void bake(const BakeArguments& arguments) {
-  const ocio::LutFormat& format = ocio::lutFormat(arguments.output, arguments.format);
+/// ociobakelut has a space in and a space out; here they are one, which it calls the working space of a look.
+sip::Recipe recipeOf(const BakeArguments& arguments, const spectral::DataLibrary& library) {
+  Overrides overrides = arguments.overrides;
+  if (arguments.inputSpace) {
+    if (overrides.space && *overrides.space != *arguments.inputSpace) {
+      throw CLI::ValidationError("--inputspace", "is the same as --space; give one of them");
+    }
+    overrides.space = arguments.inputSpace;
+  }
+  sip::Recipe recipe = recipeWith(arguments.recipe, overrides, library);
+  if (arguments.outputSpace && *arguments.outputSpace != recipe.space) {
+    throw spectral::InputError(
+        "--outputspace", "space", *arguments.outputSpace,
+        "a transform stays in its space, " + recipe.space + "; name the same, and convert in a step of its own");
+  }
+  return recipe;
+}
+
+ocio::BakeOptions optionsOf(const BakeArguments& arguments, const ocio::LutFormat& format) {
   ocio::BakeOptions options;
-  options.size = arguments.size != 0 || format.extension != ".clf" ? arguments.size : kClfSize;
+  const bool needsSize = arguments.size == 0 && format.extension == ".clf" && !arguments.tolerance;
+  options.size = needsSize ? kClfSize : arguments.size;
   if (!arguments.shaper.empty()) {
     options.shaper = ocio::shaperFromName(arguments.shaper);
   }
   options.fitted = !arguments.sampled;
-  options.config = ocio::configFromEnvironment();
+  options.tolerance = arguments.tolerance;
+  if (!arguments.stops.empty()) {
+    options.lowestStop = arguments.stops[0];
+    options.highestStop = arguments.stops[1];
+  }
+  options.shaperSize = arguments.shaperSize;
+  options.config = arguments.config.empty() ? ocio::configFromEnvironment() : ocio::configFromFile(arguments.config);
+  return options;
+}
+
+/// What was tried on the way to a tolerance, one line each.
+void report(const ocio::Certificate& certificate) {
+  if (!certificate.choice) {
+    return;
+  }
+  for (const auto& tried : certificate.choice->tried) {
+    const bool isChosen = &tried == &certificate.choice->tried.back();
+    std::cout << ocio::nameOf(tried.representation);
+    if (tried.size > 0) {
+      std::cout << " of " << tried.size << " nodes";
+    }
+    std::cout << ": p99 " << tried.p99 << ", max " << tried.max << (isChosen ? ", chosen" : "") << '\n';
+  }
+}
+
+void bake(const BakeArguments& arguments) {
+  if (arguments.toStdout != arguments.output.empty()) {
+    throw CLI::ValidationError("bake", "needs either -o FILE or --stdout");
+  }
+  if (arguments.toStdout && arguments.format.empty()) {
+    throw CLI::ValidationError("--stdout", "needs --format");
+  }
+  const ocio::LutFormat& format =
+      arguments.toStdout ? ocio::lutFormatNamed(arguments.format) : ocio::lutFormat(arguments.output, arguments.format);
+  if (!arguments.luts.empty()) {
+    const std::vector<std::filesystem::path> luts(arguments.luts.begin(), arguments.luts.end());
+    const std::string text = ocio::convertedLuts(luts, format, arguments.size, arguments.shaperSize);
+    if (arguments.toStdout) {
+      std::cout << text;
+    } else {
+      spectral::PendingFile file(arguments.output);
+      file.write(text);
+      file.commit();
+    }
+    return;
+  }
   const auto library = spectral::DataLibrary::openDefault();
-  const sip::Recipe recipe = recipeWith(arguments.recipe, arguments.overrides, library);
-  ocio::bakeFile(recipe, library, arguments.output, format.name, options);
+  const sip::Recipe recipe = recipeOf(arguments, library);
+  const ocio::BakeOptions options = optionsOf(arguments, format);
+  if (arguments.toStdout) {
+    std::cout << ocio::bakeText(recipe, library, format.name, options).text;
+  } else {
+    report(ocio::bakeFile(recipe, library, arguments.output, format.name, options));
+  }
 }
 
 }  // namespace
@@ -45,19 +125,37 @@ void addBake(CLI::App& application) {
   CLI::App* command =
       application.add_subcommand("bake", "Write a transform as a LUT file, with its certificate beside it");
   const auto arguments = std::make_shared<BakeArguments>();
-  command->add_option("RECIPE", arguments->recipe, "Recipe file; without one, the options below say it all");
-  command->add_option("-o,--output", arguments->output, "File to write; FILE.json beside it is the certificate")
-      ->required();
+  CLI::Option* recipe =
+      command->add_option("RECIPE", arguments->recipe, "Recipe file; without one, the options below say it all");
+  command->add_option("-o,--output", arguments->output, "File to write; FILE.json beside it is the certificate");
+  command->add_flag("--stdout", arguments->toStdout, "Write to standard output, without a certificate file");
   std::vector<std::string> formats;
   for (const ocio::LutFormat& format : ocio::lutFormats()) {
     formats.push_back(format.name);
   }
   command->add_option("--format", arguments->format, "Format (lutgen list formats); by the extension by default")
       ->check(CLI::IsMember(formats, CLI::ignore_case));
-  command->add_option("--size", arguments->size, "Nodes along a side; 33 for .cube, 65 for others by default")
+  command
+      ->add_option("--size,--cubesize", arguments->size,
+                   "Nodes along a side; 33 for .cube, 65 for others by default; the most where there is a tolerance")
       ->check(CLI::Range(ocio::kSmallestTable, ocio::kLargestTable));
   command->add_flag("--sampled", arguments->sampled, "Nodes are the transform's values, not solved for least error");
-  command->add_option("--shaper", arguments->shaper, "Log curve of .cube and .clf; ACEScct by default");
+  command
+      ->add_option("--tolerance", arguments->tolerance,
+                   "99th percentile of CIEDE2000 to hold, with the cheapest that does: nothing, a matrix, a table")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--stops", arguments->stops, "Exposures to judge by, round 18 % grey: LOWEST HIGHEST")
+      ->expected(2)
+      ->check(CLI::Range(-24, 24));
+  command->add_option("--shapersize", arguments->shaperSize, "Entries of the curve before a .csp's or .cub's table")
+      ->check(CLI::Range(2, 65536));
+  command->add_option("--inputspace", arguments->inputSpace, "The same as --space");
+  command->add_option("--outputspace", arguments->outputSpace, "The same space again: a transform stays in it");
+  CLI::Option* luts = command->add_option("--lut", arguments->luts,
+                                          "LUT file to write in another format, in place of a recipe; may be repeated");
+  luts->expected(1)->take_all()->excludes(recipe);
+  command->add_option("--iconfig", arguments->config, "Config in place of the one in $OCIO")->excludes(luts);
+  command->add_option("--shaper,--shaperspace", arguments->shaper, "Log curve of .cube and .clf; ACEScct by default");
   addOverrides(*command, arguments->overrides);
   command->callback([arguments] { bake(*arguments); });
 }

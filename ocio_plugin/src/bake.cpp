@@ -1,200 +1,117 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/ocio/bake.h"
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
-#include <initializer_list>
 
+#include "bake_operators.h"
+#include "ladder.h"
 #include "metamer/ocio/pending_file.h"
 #include "metamer/ocio/pixel_processor.h"
-#include "metamer/ocio/shaper.h"
-#include "metamer/ocio/working_space.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_files.h"
 
 namespace metamer::ocio {
 namespace {
 
 using spectral::InputError;
 
-/// Bands of the engine behind a baked transform: p99 within 0.13 CIEDE2000 of 401 bands on spiky lamps, 0.05 on others.
-constexpr int kBakeBandCount = 161;
-constexpr int kChainSize = 65;
-constexpr int kCubeSize = 33;
 constexpr const char* kChart = "colorchecker";
-/// The exposures a cube is judged on: what log footage carries, short of the shaper's last two stops.
-constexpr int kCubeStops = 7;
+/// What a tolerance may ask for by itself: beyond it a table is slow to load and gains little.
+constexpr int kLargestUsual = 65;
 
-/// A recipe with all it names looked up and its engine built.
-struct Prepared {
-  WorkingSpace space;
-  sip::TransformSpec spec;
-  sip::SpectralTransform transform;
-};
-
-Prepared prepare(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options) {
-  WorkingSpace space = findWorkingSpace(recipe.space, library, options.config);
-  sip::TransformSpec spec = sip::resolve(recipe, library, space.engine);
-  sip::SpectralTransform transform(spec, kBakeBandCount);
-  return {std::move(space), std::move(spec), std::move(transform)};
-}
-
-int tableSize(const BakeOptions& options, Representation representation) {
-  if (options.size != 0 && (options.size < kSmallestTable || options.size > kLargestTable)) {
-    throw InputError("", "size", std::to_string(options.size),
-                     "must be from " + std::to_string(kSmallestTable) + " to " + std::to_string(kLargestTable));
-  }
-  switch (representation) {
-    case Representation::Identity:
-    case Representation::Matrix:
-      return 0;
-    case Representation::LogCube:
-      return options.size != 0 ? options.size : kCubeSize;
-    case Representation::ExposureInvariantChain:
-      return options.size != 0 ? options.size : kChainSize;
-  }
-  return 0;
-}
-
-/// The log curve of a cube's signal: the space's own, else the shaper.
-spectral::LogEncoding cubeEncoding(const WorkingSpace& space, const BakeOptions& options) {
-  if (space.encoding) {
-    if (options.shaper && *options.shaper != *space.encoding) {
-      throw InputError("", "shaper", spectral::nameOf(*options.shaper),
-                       space.name + " is a log space already; leave the shaper out");
-    }
-    return *space.encoding;
-  }
-  return options.shaper.value_or(spectral::LogEncoding::AcesCct);
-}
-
-sip::ErrorProtocol::Options cubeProbes(spectral::LogEncoding encoding) {
-  const double stops = std::log2(spectral::decode(encoding, 1.0) / 0.18);
-  sip::ErrorProtocol::Options probes;
-  probes.insideGamutOnly = true;
-  probes.lowestStop = -kCubeStops;
-  probes.highestStop = std::min(kCubeStops, static_cast<int>(std::floor(stops)) - 2);
-  return probes;
-}
-
-/// Runs linear pixels of the engine through a transform of pixels of the working space, or of a cube's signal.
-class Candidate {
- public:
-  /// @param toPixels, fromPixels  null: pixels are the engine's
-  Candidate(PixelProcessor processor, const OCIO::ConstTransformRcPtr& toPixels,
-            const OCIO::ConstTransformRcPtr& fromPixels)
-      : m_processor(std::move(processor)) {
-    if (toPixels) {
-      m_toPixels.emplace(toPixels);
-      m_fromPixels.emplace(fromPixels);
-    }
-  }
-  void operator()(std::span<float> rgba) const {
-    if (m_toPixels) {
-      m_toPixels->apply(rgba);
-    }
-    m_processor.apply(rgba);
-    if (m_fromPixels) {
-      m_fromPixels->apply(rgba);
-    }
-  }
-
- private:
-  PixelProcessor m_processor;
-  std::optional<PixelProcessor> m_toPixels;
-  std::optional<PixelProcessor> m_fromPixels;
-};
-
-OCIO::GroupTransformRcPtr inOrder(std::initializer_list<OCIO::ConstTransformRcPtr> transforms) {
-  auto group = OCIO::GroupTransform::Create();
-  for (const auto& transform : transforms) {
-    if (transform) {
-      group->appendTransform(transform->createEditableCopy());
-    }
-  }
-  return group;
-}
-
-/// The signal of a cube: the space's own pixels where they are a log signal, else those through the shaper.
-Signal cubeSignal(const WorkingSpace& space, spectral::LogEncoding encoding) {
-  if (space.isLog) {
-    return {space.toEngine, space.fromEngine};
-  }
-  return {inOrder({shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE), space.toEngine}),
-          inOrder({space.fromEngine, shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD)})};
-}
-
-/// A recipe as operators on what a file of the content holds, and the way there from the engine's pixels.
-struct Operators {
-  OCIO::GroupTransformRcPtr group;
-  OCIO::ConstTransformRcPtr toPixels;
-  OCIO::ConstTransformRcPtr fromPixels;
-};
-
-Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, LutFormat::Content content,
-                       Representation representation, Certificate& certificate) {
-  const WorkingSpace& space = prepared.space;
-  const bool isCube = content == LutFormat::Content::Cube;
-  certificate.representation = representation;
-  certificate.size = tableSize(options, isCube ? Representation::LogCube : representation);
-  if (!isCube && representation != Representation::LogCube) {
-    return {space.wrapped(engineOperators(representation, prepared.spec, prepared.transform, certificate.size)),
-            space.fromEngine, space.toEngine};
-  }
-  if (!space.isLog && !space.isLinear) {
-    throw InputError("", "space", space.name,
-                     "is neither linear nor log, which a table needs; name a log space, or write .ctf");
-  }
-  const spectral::LogEncoding encoding = cubeEncoding(space, options);
-  const Signal signal = cubeSignal(space, encoding);
-  certificate.shaper = space.isLog ? space.name : spectral::nameOf(encoding);
-  certificate.probes = cubeProbes(encoding);
-  OCIO::ConstTransformRcPtr onSignal;
-  if (representation == Representation::LogCube) {
-    onSignal = logCube(prepared.transform, signal,
-                       {.size = certificate.size,
-                        .fitted = options.fitted,
-                        .lowestStop = static_cast<double>(certificate.probes.lowestStop),
-                        .highestStop = static_cast<double>(certificate.probes.highestStop)});
-  } else if (representation != Representation::Identity) {
-    onSignal =
-        inOrder({signal.toEngine, engineOperators(representation, prepared.spec, prepared.transform, certificate.size),
-                 signal.fromEngine});
-  }
-  if (isCube || space.isLog) {
-    return {inOrder({onSignal}), signal.fromEngine, signal.toEngine};
-  }
-  return {inOrder({shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD), onSignal,
-                   shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE)}),
-          space.fromEngine, space.toEngine};
-}
-
-Certificate newCertificate(const sip::Recipe& recipe, const spectral::DataLibrary& library, const Prepared& prepared) {
+Certificate newCertificate(const sip::Recipe& recipe, const spectral::DataLibrary& library, const Prepared& prepared,
+                           const sip::ErrorProtocol& protocol) {
   Certificate certificate;
   certificate.recipe = recipe;
   certificate.inputs = certifiedInputs(recipe, library);
   certificate.bandCount = prepared.transform.bandCount();
   certificate.gamut = prepared.space.engine.name;
   certificate.diagnostics = prepared.transform.diagnostics();
+  std::size_t folded = 0;
+  for (const auto& probe : protocol.probes()) {
+    const Eigen::Matrix3d slope = prepared.transform.linearise(probe.rgb).matrix;
+    folded += slope.determinant() < 0.0 ? 1 : 0;
+    certificate.gain = std::max(certificate.gain, Eigen::JacobiSVD<Eigen::Matrix3d>(slope).singularValues()[0]);
+  }
+  certificate.folds =
+      static_cast<double>(folded) / static_cast<double>(std::max<std::size_t>(1, protocol.probes().size()));
   return certificate;
 }
 
-Representation chosen(const Prepared& prepared, const BakeOptions& options, Representation usual) {
-  return options.representation.value_or(prepared.transform.isIdentity() ? Representation::Identity : usual);
+struct Made {
+  Operators operators;
+  Certificate certificate;
+};
+
+/// The operators of a recipe in a format, chosen by tolerance where there is one; without the error of the result.
+Made make(const sip::Recipe& recipe, const spectral::DataLibrary& library, const LutFormat& format,
+          const BakeOptions& options, const Prepared& prepared, const sip::ErrorProtocol::Options& probes,
+          const sip::ErrorProtocol& protocol) {
+  Made made{{}, newCertificate(recipe, library, prepared, protocol)};
+  Certificate& certificate = made.certificate;
+  certificate.probes = probes;
+  const Representation usual = holdsChain(format) ? Representation::ExposureInvariantChain : Representation::LogCube;
+  if (!options.tolerance) {
+    const Representation representation =
+        options.representation.value_or(prepared.transform.isIdentity() ? Representation::Identity : usual);
+    made.operators = operatorsFor(prepared, options, format.content, representation, certificate);
+    return made;
+  }
+  if (!(*options.tolerance > 0.0) || options.representation) {
+    throw InputError(
+        "", "tolerance", std::to_string(*options.tolerance),
+        options.representation ? "chooses the representation itself; name one or the other" : "must be above 0");
+  }
+  if (prepared.transform.isIdentity()) {
+    made.operators = operatorsFor(prepared, options, format.content, Representation::Identity, certificate);
+    return made;
+  }
+  BakeOptions tried = options;
+  const int largest = options.size != 0 ? tableSize(options, usual) : kLargestUsual;
+  const auto measure = [&](const Rung& rung) {
+    tried.size = rung.size;
+    made.operators = operatorsFor(prepared, tried, format.content, rung.representation, certificate);
+    return protocol.measure(
+        Candidate(PixelProcessor(made.operators.group), made.operators.toPixels, made.operators.fromPixels));
+  };
+  certificate.choice = climb(rungsOf(format.content, holdsChain(format), largest), *options.tolerance, measure);
+  return made;
+}
+
+LutDescription descriptionOf(const Certificate& certificate) {
+  return {certificate.recipe.name, "metamer-" + sha256(sip::toYaml(certificate.recipe)).substr(0, 16),
+          certificate.lines()};
 }
 
 }  // namespace
 
 Baked bake(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options) {
+  const LutFormat& format = lutFormats().front();
   const Prepared prepared = prepare(recipe, library, options);
-  Baked baked{nullptr, newCertificate(recipe, library, prepared)};
-  const Operators operators =
-      operatorsFor(prepared, options, LutFormat::Content::Operators,
-                   chosen(prepared, options, Representation::ExposureInvariantChain), baked.certificate);
-  const sip::ErrorProtocol protocol(prepared.spec, library.reflectances(kChart).samples, baked.certificate.probes);
-  const PixelProcessor processor(operators.group);
-  baked.certificate.error = protocol.measure(Candidate(processor, operators.toPixels, operators.fromPixels));
-  baked.group = operators.group;
-  return baked;
+  const sip::ErrorProtocol::Options probes = probesOf(format, prepared, options);
+  const sip::ErrorProtocol protocol(prepared.spec, library.reflectances(kChart).samples, probes);
+  Made made = make(recipe, library, format, options, prepared, probes, protocol);
+  made.certificate.error = protocol.measure(
+      Candidate(PixelProcessor(made.operators.group), made.operators.toPixels, made.operators.fromPixels));
+  return {made.operators.group, std::move(made.certificate)};
+}
+
+BakedText bakeText(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::string& formatName,
+                   const BakeOptions& options) {
+  const LutFormat& format = lutFormatNamed(formatName);
+  const Prepared prepared = prepare(recipe, library, options);
+  const sip::ErrorProtocol::Options probes = probesOf(format, prepared, options);
+  const sip::ErrorProtocol protocol(prepared.spec, library.reflectances(kChart).samples, probes);
+  Made made = make(recipe, library, format, options, prepared, probes, protocol);
+  made.certificate.format = format.name;
+  made.certificate.error = protocol.measure(
+      Candidate(PixelProcessor(made.operators.group), made.operators.toPixels, made.operators.fromPixels));
+  std::string text =
+      lutText(format, made.operators.group, made.certificate.size, descriptionOf(made.certificate), options.shaperSize);
+  made.certificate.sha256 = sha256(text);
+  return {std::move(text), std::move(made.certificate)};
 }
 
 Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::filesystem::path& file,
@@ -205,30 +122,49 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   PendingFile json(file.string() + ".json");
 
   const Prepared prepared = prepare(recipe, library, options);
-  Certificate certificate = newCertificate(recipe, library, prepared);
+  const sip::ErrorProtocol::Options probes = probesOf(format, prepared, options);
+  const sip::ErrorProtocol protocol(prepared.spec, library.reflectances(kChart).samples, probes);
+  auto [operators, certificate] = make(recipe, library, format, options, prepared, probes, protocol);
   certificate.format = format.name;
-  // CLF has no operator for chromaticities.
-  const bool holdsChain = format.content == LutFormat::Content::Operators && format.extension != ".clf";
-  const Representation usual = holdsChain ? Representation::ExposureInvariantChain : Representation::LogCube;
-  const Operators operators =
-      operatorsFor(prepared, options, format.content, chosen(prepared, options, usual), certificate);
-
-  const sip::ErrorProtocol protocol(prepared.spec, library.reflectances(kChart).samples, certificate.probes);
-  const auto measure = [&](const PixelProcessor& processor) {
-    return protocol.measure(Candidate(processor, operators.toPixels, operators.fromPixels));
+  const auto measure = [&, &made = operators](const PixelProcessor& processor) {
+    return protocol.measure(Candidate(processor, made.toPixels, made.fromPixels));
   };
   // Twice: what the file says of itself is known before it is written, what the certificate says after.
   certificate.error = measure(PixelProcessor(operators.group));
-  const LutDescription description{recipe.name, "metamer-" + sha256(sip::toYaml(recipe)).substr(0, 16),
-                                   certificate.lines()};
-  const std::string text = lutText(format, operators.group, certificate.size, description);
+  const std::string text =
+      lutText(format, operators.group, certificate.size, descriptionOf(certificate), options.shaperSize);
   lut.write(text);
   certificate.sha256 = sha256(text);
   certificate.error = measure(PixelProcessor::fromFile(lut.path()));
+  if (options.tolerance && certificate.error.p99 > 1.01 * *options.tolerance) {
+    throw InputError(file.string(), "tolerance", std::to_string(*options.tolerance),
+                     "is lost in the digits of " + format.name + "; name a format that keeps more");
+  }
   json.write(certificate.json());
   lut.commit();
   json.commit();
   return certificate;
+}
+
+std::string convertedLuts(const std::vector<std::filesystem::path>& luts, const LutFormat& format, int size,
+                          int shaperSize) {
+  BakeOptions options;
+  options.size = size;
+  auto group = OCIO::GroupTransform::Create();
+  LutDescription description;
+  for (const auto& lut : luts) {
+    // Read once for its own error; then as one of the group.
+    PixelProcessor::fromFile(lut);
+    auto transform = OCIO::FileTransform::Create();
+    transform->setSrc(std::filesystem::absolute(lut).string().c_str());
+    transform->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+    group->appendTransform(transform);
+    description.name += (description.name.empty() ? "" : " + ") + lut.filename().string();
+    description.lines.push_back(lut.filename().string() + " sha256 " + sha256(spectral::readTextFile(lut)));
+  }
+  const auto resolved = OCIO::Config::CreateRaw()->getProcessor(group)->createGroupTransform();
+  description.id = "metamer-" + sha256(description.name).substr(0, 16);
+  return lutText(format, resolved, tableSize(options, Representation::LogCube), description, shaperSize);
 }
 
 }  // namespace metamer::ocio

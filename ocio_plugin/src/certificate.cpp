@@ -128,6 +128,7 @@ std::string Certificate::json() const {
   }
   if (size > 0) {
     transform["size"] = size;
+    transform["nodes"] = fitted ? "fitted" : "sampled";
   }
   if (!shaper.empty()) {
     transform["shaper"] = shaper;
@@ -135,6 +136,19 @@ std::string Certificate::json() const {
   transform["engine_bands"] = bandCount;
   if (!sha256.empty()) {
     transform["sha256"] = sha256;
+  }
+  if (choice) {
+    Json tried = Json::array();
+    for (const auto& each : choice->tried) {
+      Json entry = {{"representation", nameOf(each.representation)}};
+      if (each.size > 0) {
+        entry["size"] = each.size;
+      }
+      entry["p99"] = rounded(each.p99);
+      entry["max"] = rounded(each.max);
+      tried.push_back(entry);
+    }
+    transform["choice"] = {{"tolerance", choice->tolerance}, {"on", "p99"}, {"tried", tried}};
   }
   const Policy policy = policyOf(representation);
   const Json document = {
@@ -161,7 +175,9 @@ std::string Certificate::json() const {
       {"diagnostics",
        {{"condition_number", significant(diagnostics.conditionNumber)},
         {"rank", diagnostics.rank},
-        {"matrix_gain", significant(diagnostics.matrixGain)}}},
+        {"matrix_gain", significant(diagnostics.matrixGain)},
+        {"gain", significant(gain)},
+        {"folds", rounded(folds)}}},
       {"policy",
        {{"negatives", policy.negatives}, {"out_of_range", policy.outOfRange}, {"not_a_number", policy.notANumber}}}};
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -183,10 +199,35 @@ std::vector<std::string> Certificate::lines() const {
                 error.p99, error.max, probes.lowestStop, probes.highestStop);
   std::vector<std::string> result = {
       "metamer " + toolVersion() + ": " + side(recipe.input) + " -> " + side(recipe.output),
-      "space " + recipe.space + ", " + nameOf(representation) + (shaper.empty() ? "" : ", shaper " + shaper),
+      "space " + recipe.space + ", " + nameOf(representation) +
+          (size > 0 ? ", " + std::to_string(size) + " nodes a side, " + (fitted ? "fitted" : "sampled") : "") +
+          (shaper.empty() ? "" : ", shaper " + shaper),
       figures.data(), "worst: " + error.worstProbe};
+  std::array<char, 160> range{};
+  std::snprintf(range.data(), range.size(), "gamut %s%s; condition %.4g, rank %d, gain %.4g, folds %.2f %%",
+                gamut.c_str(), probes.insideGamutOnly ? ", inside only" : "", diagnostics.conditionNumber,
+                diagnostics.rank, gain, 100.0 * folds);
+  result.emplace_back(range.data());
+  if (choice) {
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(), "chosen as the cheapest with p99 within %g", choice->tolerance);
+    result.emplace_back(text.data());
+    if (choice->tried.size() > 1) {
+      const auto& cheaper = choice->tried[choice->tried.size() - 2];
+      std::snprintf(text.data(), text.size(), "the next cheaper, %s%s, would be at p99 %.3f, max %.3f",
+                    nameOf(cheaper.representation).c_str(),
+                    cheaper.size > 0 ? (" of " + std::to_string(cheaper.size) + " nodes").c_str() : "", cheaper.p99,
+                    cheaper.max);
+      result.emplace_back(text.data());
+    }
+  }
+  for (const auto& input : inputs) {
+    result.push_back(input.role + ": " + portable(input.provenance.name) + " sha256 " + input.provenance.sha256);
+  }
   const Policy policy = policyOf(representation);
   result.push_back("negatives: " + policy.negatives);
+  result.push_back("out of range: " + policy.outOfRange);
+  result.push_back("not a number: " + policy.notANumber);
   return result;
 }
 

@@ -24,15 +24,19 @@ void appendNumber(std::string& text, float value) {
   text.append(digits, end.ptr);
 }
 
+void appendNode(std::string& text, const float* rgb) {
+  appendNumber(text, rgb[0]);
+  text += ' ';
+  appendNumber(text, rgb[1]);
+  text += ' ';
+  appendNumber(text, rgb[2]);
+  text += '\n';
+}
+
 void appendNodes(std::string& text, std::span<const float> rgba) {
   text.reserve(text.size() + rgba.size() * 8);
   for (std::size_t at = 0; at < rgba.size(); at += 4) {
-    appendNumber(text, rgba[at]);
-    text += ' ';
-    appendNumber(text, rgba[at + 1]);
-    text += ' ';
-    appendNumber(text, rgba[at + 2]);
-    text += '\n';
+    appendNode(text, rgba.data() + at);
   }
 }
 
@@ -56,6 +60,27 @@ std::string resolveCubeText(std::span<const float> rgba, int size, const LutDesc
   text += "LUT_3D_SIZE " + std::to_string(size) + "\nLUT_3D_INPUT_RANGE 0.0 1.0\n";
   appendNodes(text, rgba);
   return text;
+}
+
+std::string spi3dText(std::span<const float> rgba, int size) {
+  const std::string side = std::to_string(size);
+  std::string text = "SPILUT 1.0\n3 3\n" + side + ' ' + side + ' ' + side + '\n';
+  const auto count = static_cast<std::size_t>(size);
+  for (std::size_t red = 0; red < count; ++red) {
+    for (std::size_t green = 0; green < count; ++green) {
+      for (std::size_t blue = 0; blue < count; ++blue) {
+        text += std::to_string(red) + ' ' + std::to_string(green) + ' ' + std::to_string(blue) + ' ';
+        appendNode(text, rgba.data() + 4 * (red + count * (green + count * blue)));
+      }
+    }
+  }
+  return text;
+}
+
+std::string spi1dText(std::span<const float> rgba) {
+  std::string text = "Version 1\nFrom 0.0 1.0\nLength " + std::to_string(rgba.size() / 4) + "\nComponents 3\n{\n";
+  appendNodes(text, rgba);
+  return text + "}\n";
 }
 
 }  // namespace metamer::ocio

@@ -14,5 +14,9 @@ namespace metamer::ocio {
 std::string iridasCubeText(std::span<const float> rgba, int size, const LutDescription& description);
 /// Resolve: LUT_3D_SIZE and LUT_3D_INPUT_RANGE.
 std::string resolveCubeText(std::span<const float> rgba, int size, const LutDescription& description);
+/// Imageworks' spi3d, which has no place for comments; OCIO's baker writes it from 2.4 on alone.
+std::string spi3dText(std::span<const float> rgba, int size);
+/// Imageworks' spi1d: curves over 0 ... 1. @param rgba  entries of four floats; the fourth is left out
+std::string spi1dText(std::span<const float> rgba);
 
 }  // namespace metamer::ocio

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "baker_text.h"
 #include "cube_text.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
@@ -14,6 +15,9 @@ namespace {
 
 using spectral::InputError;
 using Content = LutFormat::Content;
+
+/// Entries of a curve: a step of 12 bits each.
+constexpr int kCurveEntries = 4096;
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -42,6 +46,21 @@ std::vector<float> tabulated(const OCIO::ConstGroupTransformRcPtr& group, int si
   }
   PixelProcessor(group).apply(nodes);
   return nodes;
+}
+
+/// The group along the three axes of channels, four floats an entry.
+std::vector<float> curves(const OCIO::ConstGroupTransformRcPtr& group, int count) {
+  if (OCIO::Config::CreateRaw()->getProcessor(group)->hasChannelCrosstalk()) {
+    throw InputError("", "format", "spi1d",
+                     "holds curves, and this transform mixes channels; name a format with a 3-D table");
+  }
+  std::vector<float> entries;
+  for (int k = 0; k < count; ++k) {
+    const auto at = static_cast<float>(static_cast<double>(k) / (count - 1));
+    entries.insert(entries.end(), {at, at, at, 1.0F});
+  }
+  PixelProcessor(group).apply(entries);
+  return entries;
 }
 
 /// OCIO's own writer, for operators.
@@ -75,36 +94,64 @@ const std::vector<LutFormat>& lutFormats() {
       {"Academy/ASC Common LUT Format", ".clf", "CLF operators: log, 3-D table, antilog", Content::Operators},
       {"iridas_cube", ".cube", "3-D table, log in and out (Adobe, Iridas)", Content::Cube},
       {"resolve_cube", ".cube", "3-D table, log in and out (Resolve)", Content::Cube},
+      {"cinespace", ".csp", "3-D table, log in and out (Cinespace)", Content::Cube},
+      {"flame", ".3dl", "3-D table of 12 bits, log in and out (Flame)", Content::Cube},
+      {"lustre", ".3dl", "3-D table of 12 bits, log in and out (Lustre)", Content::Cube},
+      {"houdini", ".lut", "3-D table, log in and out (Houdini)", Content::Cube},
+      {"iridas_itx", ".itx", "3-D table, log in and out (Iridas)", Content::Cube},
+      {"spi3d", ".spi3d", "3-D table, log in and out (Imageworks)", Content::Cube},
+      {"truelight", ".cub", "3-D table, log in and out (Truelight)", Content::Cube},
+      {"spi1d", ".spi1d", "curves, log in and out (Imageworks); only what leaves channels apart", Content::Curves},
   };
   return formats;
 }
 
-const LutFormat& lutFormat(const std::filesystem::path& file, const std::string& formatName) {
+const LutFormat& lutFormatNamed(const std::string& formatName) {
   const auto& formats = lutFormats();
-  const std::string extension = lower(file.extension().string());
   const std::string wanted = lower(formatName);
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const LutFormat& format) {
-    return wanted.empty() ? format.extension == extension
-                          : lower(format.name) == wanted || format.extension == "." + wanted;
+    return lower(format.name) == wanted || format.extension == "." + wanted;
   });
   if (found == formats.end()) {
-    const bool byName = !formatName.empty();
-    throw InputError(byName ? "" : file.string(), byName ? "format" : "extension", byName ? formatName : extension,
-                     "unknown; the formats are " + allFormats());
-  }
-  if (found->extension != extension) {
-    throw InputError(file.string(), "extension", extension,
-                     "is not that of " + found->name + "; name the file *" + found->extension);
+    throw InputError("", "format", formatName, "unknown; the formats are " + allFormats());
   }
   return *found;
 }
 
+const LutFormat& lutFormat(const std::filesystem::path& file, const std::string& formatName) {
+  const std::string extension = lower(file.extension().string());
+  if (formatName.empty()) {
+    const auto& formats = lutFormats();
+    const auto found = std::find_if(formats.begin(), formats.end(),
+                                    [&](const LutFormat& format) { return format.extension == extension; });
+    if (found == formats.end()) {
+      throw InputError(file.string(), "extension", extension, "unknown; the formats are " + allFormats());
+    }
+    return *found;
+  }
+  const LutFormat& format = lutFormatNamed(formatName);
+  if (format.extension != extension) {
+    throw InputError(file.string(), "extension", extension,
+                     "is not that of " + format.name + "; name the file *" + format.extension);
+  }
+  return format;
+}
+
 std::string lutText(const LutFormat& format, const OCIO::ConstGroupTransformRcPtr& group, int size,
-                    const LutDescription& description) {
+                    const LutDescription& description, int shaperSize) {
   if (format.content == Content::Operators) {
     return groupText(format, group, description);
   }
+  if (format.content == Content::Curves) {
+    return spi1dText(curves(group, shaperSize > 0 ? shaperSize : kCurveEntries));
+  }
+  if (format.extension != ".cube" && format.name != "spi3d") {
+    return bakerText(format.name, group, size, shaperSize, description);
+  }
   const std::vector<float> nodes = tabulated(group, size);
+  if (format.name == "spi3d") {
+    return spi3dText(nodes, size);
+  }
   return format.name == "resolve_cube" ? resolveCubeText(nodes, size, description)
                                        : iridasCubeText(nodes, size, description);
 }

@@ -97,6 +97,13 @@ spectral::LogEncoding shaperFromName(const std::string& name) {
   for (const auto& known : names) {
     all += (all.empty() ? "" : ", ") + known;
   }
+  const std::string asked = lower(name);
+  if (asked == "linear" || asked == "none" || asked == "raw") {
+    throw spectral::InputError("", "shaper", name,
+                               "is no logarithm: a table over linear light has no nodes in the dark and clips above 1; "
+                               "name one of " +
+                                   all);
+  }
   throw spectral::InputError("", "shaper", name, "unknown; the shapers are " + all);
 }
 

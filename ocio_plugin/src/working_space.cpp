@@ -120,4 +120,12 @@ OCIO::ConstConfigRcPtr configFromEnvironment() {
   }
 }
 
+OCIO::ConstConfigRcPtr configFromFile(const std::filesystem::path& file) {
+  try {
+    return OCIO::Config::CreateFromFile(file.string().c_str());
+  } catch (const OCIO::Exception& error) {
+    throw InputError(file.string(), "config", "", std::string("cannot be read: ") + error.what());
+  }
+}
+
 }  // namespace metamer::ocio

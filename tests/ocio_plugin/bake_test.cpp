@@ -107,6 +107,61 @@ TEST(BakeTest, SampledCubeNodesAreExact) {
   }
 }
 
+TEST(BakeTest, ToleranceTakesTheCheapestThatHoldsIt) {
+  BakeOptions options;
+  options.tolerance = 3.0;
+  const Baked loose = bake(recipeOf("D65", "A"), testLibrary(), options);
+  ASSERT_TRUE(loose.certificate.choice);
+  const auto& tried = loose.certificate.choice->tried;
+  ASSERT_GE(tried.size(), 2U);
+  for (std::size_t k = 0; k + 1 < tried.size(); ++k) {
+    EXPECT_GT(tried[k].p99, 3.0);
+  }
+  EXPECT_EQ(tried[0].representation, Representation::Identity);
+  EXPECT_EQ(tried[1].representation, Representation::Matrix);
+  EXPECT_LE(loose.certificate.error.p99, 3.0);
+  EXPECT_EQ(loose.certificate.size, tried.back().size);
+  options.tolerance = 100.0;
+  EXPECT_EQ(bake(recipeOf("D65", "A"), testLibrary(), options).certificate.representation, Representation::Identity);
+  options.tolerance.reset();
+  options.representation = Representation::Matrix;
+  const double matrix = bake(recipeOf("D65", "A"), testLibrary(), options).certificate.error.p99;
+  EXPECT_NEAR(tried[1].p99, matrix, 1e-9);
+}
+
+TEST(BakeTest, ToleranceThatNothingHoldsIsRefusedWithTheBest) {
+  const TemporaryFolder folder;
+  BakeOptions options;
+  options.tolerance = 0.01;
+  options.size = 9;
+  const std::string error =
+      errorOf([&] { bakeFile(recipeOf("D65", "HP1"), testLibrary(), folder / "a.cube", {}, options); });
+  EXPECT_NE(error.find("tolerance '0.01'"), std::string::npos) << error;
+  EXPECT_NE(error.find("log cube of 9 nodes"), std::string::npos) << error;
+  EXPECT_TRUE(folder.isEmpty());
+}
+
+// A narrower range is easier, and the certificate says which it was.
+TEST(BakeTest, StopsAreWhatIsJudged) {
+  BakeOptions options;
+  options.representation = Representation::LogCube;
+  options.size = 17;
+  const Certificate wide = bake(recipeOf("D65", "HP1"), testLibrary(), options).certificate;
+  options.lowestStop = -2;
+  options.highestStop = 4;
+  const Certificate narrow = bake(recipeOf("D65", "HP1"), testLibrary(), options).certificate;
+  EXPECT_LT(narrow.error.p99, wide.error.p99);
+  EXPECT_EQ(narrow.probes.lowestStop, -2);
+  const auto json = nlohmann::json::parse(narrow.json());
+  EXPECT_EQ(json["range"]["lowest_stop"], -2);
+  EXPECT_EQ(json["transform"]["nodes"], "fitted");
+  EXPECT_GT(json["diagnostics"]["gain"].get<double>(), 0.5);
+  EXPECT_GE(json["diagnostics"]["folds"].get<double>(), 0.0);
+  options.lowestStop = 5;
+  EXPECT_NE(errorOf([&] { bake(recipeOf("D65", "HP1"), testLibrary(), options); }).find("must rise"),
+            std::string::npos);
+}
+
 TEST(BakeTest, EveryFormatIsMeasuredAsWritten) {
   const TemporaryFolder folder;
   for (const char* name : {"a.ctf", "a.clf", "a.cube"}) {

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What lutgen writes, read by the newest OpenColorIO and by the one metamer is built against."""
 
-import os
 import subprocess
 import tempfile
 import unittest
@@ -10,23 +9,9 @@ from pathlib import Path
 import numpy as np
 import PyOpenColorIO as ocio
 
-BIN = Path(os.environ["METAMER_BIN"])
+from ocio_releases import BIN, built_against, newest
+
 PAIRS = [("D65", "A"), ("D65", "HP1"), ("D65", "FL11"), ("D65", "LED-RGB1"), ("A", "D65"), ("FL11", "D50")]
-
-
-def newest(file, pixels):
-    transform = ocio.FileTransform(src=str(file), interpolation=ocio.INTERP_TETRAHEDRAL)
-    processor = ocio.Config.CreateRaw().getProcessor(transform)
-    flags = ocio.OptimizationFlags(int(ocio.OPTIMIZATION_DEFAULT) & ~int(ocio.OPTIMIZATION_FAST_LOG_EXP_POW))
-    cpu = processor.getOptimizedCPUProcessor(ocio.BIT_DEPTH_F32, ocio.BIT_DEPTH_F32, flags)
-    result = pixels.copy()
-    cpu.applyRGBA(result)
-    return result
-
-
-def built_against(file, pixels):
-    run = subprocess.run([BIN / "ocio_apply", file], input=pixels.tobytes(), capture_output=True, check=True)
-    return np.frombuffer(run.stdout, np.float32).reshape(pixels.shape)
 
 
 def bake(folder, name, *arguments):

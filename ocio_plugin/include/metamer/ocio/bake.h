@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "metamer/ocio/certificate.h"
 #include "metamer/ocio/lut_writer.h"
@@ -17,10 +18,18 @@ namespace metamer::ocio {
 struct BakeOptions {
   /// Empty: Identity where the recipe does nothing, else what the format holds best.
   std::optional<Representation> representation;
-  int size = 0;                                 ///< nodes along a side; 0: 65 for a chain, 33 for a cube
-  bool fitted = true;                           ///< tables solved for least error; false: the transform's values
+  int size = 0;        ///< nodes along a side; 0: 65 for a chain, 33 for a cube. The most, where there is a tolerance
+  bool fitted = true;  ///< tables solved for least error; false: the transform's values
   std::optional<spectral::LogEncoding> shaper;  ///< of cubes of a linear space; empty: ACEScct
   OCIO::ConstConfigRcPtr config;                ///< where spaces that are not built in are looked up; may be null
+  /// 99th percentile of CIEDE2000 to hold, over the gamut and exposures that the certificate states, with the cheapest
+  /// that does: nothing, a matrix, a table of few nodes, of more. Not together with `representation`.
+  std::optional<double> tolerance = {};
+  /// Exposures to judge by, stops round Y = 0.18. Empty: -10 ... +10; for tables of a log signal, -7 ... +7 or as far
+  /// as the signal goes.
+  std::optional<int> lowestStop = {};
+  std::optional<int> highestStop = {};
+  int shaperSize = 0;  ///< entries of the curve in front of a table, in formats that have one; 0: their usual number
 };
 
 /// A recipe as an OCIO transform.
@@ -30,7 +39,8 @@ struct Baked {
 };
 
 /// A recipe as an OCIO transform on pixels of its space, with its measured error.
-/// @throws spectral::InputError: what the recipe names is not there or has no meaning, a size out of range
+/// @throws spectral::InputError: what the recipe names is not there or has no meaning, a size out of range, a tolerance
+///         that nothing holds
 Baked bake(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options = {});
 
 /// Bakes a recipe to a LUT file and its certificate beside it, FILE.json; the error is measured on the written file.
@@ -39,5 +49,19 @@ Baked bake(const sip::Recipe& recipe, const spectral::DataLibrary& library, cons
 /// @throws spectral::InputError as above, and where the file cannot be written
 Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::filesystem::path& file,
                      const std::string& formatName = {}, const BakeOptions& options = {});
+
+/// The same as text, without any file. @param formatName  as lutFormat() takes it; needed
+struct BakedText {
+  std::string text;
+  Certificate certificate;
+};
+BakedText bakeText(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::string& formatName,
+                   const BakeOptions& options = {});
+
+/// LUT files, one after the other, as one file of another format: no recipe, so no certificate.
+/// @param size  nodes along a side where the format holds a table; 0: 33
+/// @throws spectral::InputError where OCIO cannot read one, or the format cannot hold them
+std::string convertedLuts(const std::vector<std::filesystem::path>& luts, const LutFormat& format, int size,
+                          int shaperSize);
 
 }  // namespace metamer::ocio

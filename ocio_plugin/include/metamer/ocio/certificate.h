@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,20 +17,36 @@ struct CertifiedInput {
   spectral::Provenance provenance;
 };
 
+/// How a representation was chosen: the cheapest that holds a tolerance.
+struct CertifiedChoice {
+  struct Tried {
+    Representation representation = Representation::Identity;
+    int size = 0;
+    double p99 = 0;
+    double max = 0;
+  };
+  double tolerance = 0;      ///< on the 99th percentile
+  std::vector<Tried> tried;  ///< from the cheapest; the last is the chosen one
+};
+
 /// What a written transform is, what it was made from, and how far it is from the converged engine. The same bytes for
 /// the same transform: no times, no folders of this machine.
 struct Certificate {
   sip::Recipe recipe;
   std::vector<CertifiedInput> inputs;
   Representation representation = Representation::Identity;
-  std::string format;  ///< OCIO's name of the file format; empty for a transform that is not a file
-  int size = 0;        ///< nodes along a side of its table, 0 without one
-  std::string shaper;  ///< of a log cube; empty without one
-  int bandCount = 0;   ///< of the engine that made it
-  std::string gamut;   ///< working space of the probes
+  std::string format;                     ///< OCIO's name of the file format; empty for a transform that is not a file
+  std::optional<CertifiedChoice> choice;  ///< where there was a tolerance
+  int size = 0;                           ///< nodes along a side of its table, 0 without one
+  bool fitted = false;                    ///< whether the table's nodes are solved for least error
+  std::string shaper;                     ///< of a log cube; empty without one
+  int bandCount = 0;                      ///< of the engine that made it
+  std::string gamut;                      ///< working space of the probes
   sip::ErrorProtocol::Options probes;
   sip::ErrorProtocol::Report error;  ///< CIEDE2000 against 401 bands, through OCIO's CPU processor
   sip::SpectralTransform::Diagnostics diagnostics;
+  double folds = 0;    ///< share of the probes where the map of chromaticities turns over (negative Jacobian)
+  double gain = 0;     ///< largest singular value of the transform's derivative at the probes
   std::string sha256;  ///< of the written file; empty for a transform that is not a file
 
   /// The whole as JSON, fields in a fixed order, two spaces of indent, a newline at the end.

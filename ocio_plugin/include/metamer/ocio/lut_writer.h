@@ -16,6 +16,7 @@ struct LutFormat {
   enum class Content {
     Operators,  ///< a group of operators, as it is: linear pixels keep their range
     Cube,       ///< a 3-D table over 0 ... 1: log signal in and out
+    Curves,     ///< a curve a channel over 0 ... 1: only what leaves channels apart
   };
   std::string name;       ///< OCIO's
   std::string extension;  ///< with its dot
@@ -23,13 +24,16 @@ struct LutFormat {
   Content content = Content::Cube;
 };
 
-/// All, the one that an extension picks first among those that share it.
+/// All that OCIO's group writer and baker know, the one that an extension picks first among those that share it.
 const std::vector<LutFormat>& lutFormats();
 
 /// The format of a file by `formatName` (OCIO's name, or an extension without its dot), or by the file's extension
 /// where that is empty.
 /// @throws spectral::InputError: unknown (all listed), or a name whose extension is not the file's
 const LutFormat& lutFormat(const std::filesystem::path& file, const std::string& formatName);
+
+/// The format of a name alone. @throws spectral::InputError: unknown (all listed)
+const LutFormat& lutFormatNamed(const std::string& formatName);
 
 /// What a file says about itself, where the format has a place for it.
 struct LutDescription {
@@ -39,9 +43,10 @@ struct LutDescription {
 };
 
 /// A group of operators as the text of a file.
-/// @param size  nodes along a side where the format holds a table
-/// @throws spectral::InputError where OCIO cannot write the group in this format
+/// @param size        nodes along a side where the format holds a table
+/// @param shaperSize  entries of a curve in front of the table, where the format has one; 0: its usual number
+/// @throws spectral::InputError where the group cannot be written in this format
 std::string lutText(const LutFormat& format, const OCIO::ConstGroupTransformRcPtr& group, int size,
-                    const LutDescription& description);
+                    const LutDescription& description, int shaperSize = 0);
 
 }  // namespace metamer::ocio

@@ -3,6 +3,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -37,5 +38,8 @@ WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibra
 /// The config that $OCIO names, null where it is not set.
 /// @throws spectral::InputError where it cannot be read
 OCIO::ConstConfigRcPtr configFromEnvironment();
+
+/// @throws spectral::InputError where it is not there or cannot be read
+OCIO::ConstConfigRcPtr configFromFile(const std::filesystem::path& file);
 
 }  // namespace metamer::ocio

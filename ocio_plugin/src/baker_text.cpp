@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baker_text.h"
+
+#include <sstream>
+
+#include "metamer/spectral/input_error.h"
+
+namespace metamer::ocio {
+namespace {
+
+constexpr const char* kInput = "signal";
+constexpr const char* kOutput = "transformed";
+
+/// A config of two spaces, one the group away from the other: what the baker needs to be asked.
+OCIO::ConstConfigRcPtr configOf(const OCIO::ConstGroupTransformRcPtr& group) {
+  auto config = OCIO::Config::CreateRaw()->createEditableCopy();
+  auto input = OCIO::ColorSpace::Create();
+  input->setName(kInput);
+  config->addColorSpace(input);
+  auto output = OCIO::ColorSpace::Create();
+  output->setName(kOutput);
+  output->setTransform(group, OCIO::COLORSPACE_DIR_FROM_REFERENCE);
+  config->addColorSpace(output);
+  return config;
+}
+
+std::string commentLines(const LutDescription& description) {
+  std::string text = "# " + description.name + "\n";
+  for (const auto& line : description.lines) {
+    text += "# " + line + "\n";
+  }
+  return text;
+}
+
+/// Where "#" lines may stand: at the front, or behind a header that must come first.
+std::string withComments(std::string text, const std::string& formatName, const LutDescription& description) {
+  if (formatName == "flame" || formatName == "iridas_itx") {
+    return commentLines(description) + text;
+  }
+  const std::string last = formatName == "truelight" ? "# width" : formatName == "lustre" ? "Mesh" : "";
+  const std::size_t at = last.empty() ? std::string::npos : text.find(last);
+  if (at != std::string::npos) {
+    text.insert(text.find('\n', at) + 1, commentLines(description));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string bakerText(const std::string& formatName, const OCIO::ConstGroupTransformRcPtr& group, int size,
+                      int shaperSize, const LutDescription& description) {
+  std::ostringstream text;
+  try {
+    auto baker = OCIO::Baker::Create();
+    baker->setConfig(configOf(group));
+    baker->setFormat(formatName.c_str());
+    baker->setInputSpace(kInput);
+    baker->setTargetSpace(kOutput);
+    if (size > 0) {
+      baker->setCubeSize(size);
+    }
+    if (shaperSize > 0) {
+      baker->setShaperSize(shaperSize);
+    }
+    // Cinespace alone has a place for metadata.
+    baker->getFormatMetadata().addChildElement(OCIO::METADATA_DESCRIPTION, description.name.c_str());
+    for (const auto& line : description.lines) {
+      baker->getFormatMetadata().addChildElement(OCIO::METADATA_DESCRIPTION, line.c_str());
+    }
+    baker->bake(text);
+  } catch (const OCIO::Exception& error) {
+    throw spectral::InputError("", "format", formatName, std::string("cannot hold this transform: ") + error.what());
+  }
+  return withComments(std::move(text).str(), formatName, description);
+}
+
+}  // namespace metamer::ocio

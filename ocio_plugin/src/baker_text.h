@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "metamer/ocio/lut_writer.h"
+
+namespace metamer::ocio {
+
+/// A group over 0 ... 1 as the text that OCIO's own baker writes, with comments added where the format has a place.
+/// @param shaperSize  entries of the curve in front of the table, where the format has one; 0: as the baker likes
+/// @throws spectral::InputError where the baker refuses it
+std::string bakerText(const std::string& formatName, const OCIO::ConstGroupTransformRcPtr& group, int size,
+                      int shaperSize, const LutDescription& description);
+
+}  // namespace metamer::ocio
