@@ -61,7 +61,7 @@ CubeStencil cubeStencil(const Eigen::Vector3f& signal, int size) {
   return stencil;
 }
 
-CubeEquations::CubeEquations(int size) : m_size(size) {
+CubeEquations::CubeEquations(int size) {
   const auto count = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
   m_blocks.resize(count);
   m_right.resize(count);

@@ -57,7 +57,6 @@ class CubeEquations {
  private:
   void multiply(const std::vector<Eigen::Vector3f>& x, std::vector<Eigen::Vector3f>& result) const;
 
-  int m_size;
   std::array<std::uint32_t, 8> m_steps = {};
   std::vector<std::array<Symmetric, 8>> m_blocks;  // a node's row: with the corner of each mask of its cell
   std::vector<Eigen::Vector3f> m_right;

@@ -17,6 +17,26 @@ output: {illuminant: HP1, adaptation: 0.5}
 """
 
 
+CONFIG = """ocio_profile_version: 2.1
+environment: {}
+search_path: ""
+roles: {aces_interchange: aces, default: aces, scene_linear: aces}
+displays:
+  d:
+    - !<View> {name: v, colorspace: display}
+colorspaces:
+  - !<ColorSpace> {name: aces, encoding: scene-linear}
+  - !<ColorSpace>
+    name: plate
+    encoding: log
+    from_scene_reference: !<BuiltinTransform> {style: ACEScct_to_ACES2065-1, direction: inverse}
+  - !<ColorSpace>
+    name: display
+    encoding: sdr-video
+    from_scene_reference: !<ExponentTransform> {value: [2.2, 2.2, 2.2, 1], direction: inverse}
+"""
+
+
 class Help(LutgenTest):
     def test_help_goes_to_stdout(self):
         for arguments in (["--help"], ["bake", "--help"], ["apply", "--help"], ["list", "--help"], ["--version"]):
@@ -33,6 +53,15 @@ class Help(LutgenTest):
             ["bake", "-o", "a.cube", "--illuminant-in", "D65"],
             ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "33x"],
             ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "1"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "2"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--cubesize", "2"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--stdout"],
+            ["bake", *DAY_TO_TUNGSTEN, "--stdout"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--tolerance", "0"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--stops", "3"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--stops", "-30", "3"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--space", "ACEScg", "--inputspace", "ACEScct"],
+            ["bake", "-o", "a.cube", "--lut", "b.cube", "--iconfig", "c.ocio"],
             ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "130"],
             ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "1000000"],
             ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--adaptation", "2"],
@@ -89,6 +118,73 @@ class Bake(LutgenTest):
         self.assertEqual((self.folder / "a.cube").read_bytes(), (self.folder / "b.cube").read_bytes())
         self.assertEqual((self.folder / "a.cube.json").read_bytes(), (self.folder / "b.cube.json").read_bytes())
 
+    def test_ociobakeluts_flags_mean_the_same(self):
+        self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--space", "ACEScg", "--size", "9", "--shaper", "LogC3", "-o", "a.cube")
+        self.assertWorks(
+            "bake", *DAY_TO_TUNGSTEN, "--inputspace", "ACEScg", "--outputspace", "ACEScg", "--cubesize", "9",
+            "--shaperspace", "LogC3", "--shapersize", "1024", "--format", "iridas_cube", "-o", "b.cube",
+        )
+        self.assertEqual((self.folder / "a.cube").read_bytes(), (self.folder / "b.cube").read_bytes())
+        text = self.assertWorks(
+            "bake", *DAY_TO_TUNGSTEN, "--cubesize", "9", "--shaperspace", "LogC3", "--format", "iridas_cube", "--stdout"
+        )
+        numbers = [line for line in text.splitlines() if line[:1].isdigit()]
+        written = [line for line in (self.folder / "a.cube").read_text().splitlines() if line[:1].isdigit()]
+        self.assertEqual(numbers, written)
+        self.assertEqual(len(numbers), 9**3)
+        self.assertFails(
+            "bake", *DAY_TO_TUNGSTEN, "--inputspace", "ACEScg", "--outputspace", "ACEScct", "-o", "c.cube",
+            says=["ACEScct", "stays in its space, ACEScg"],
+        )
+
+    def test_a_lut_file_in_another_format(self):
+        self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--size", "9", "-o", "a.cube")
+        self.assertWorks("bake", "--lut", "a.cube", "--cubesize", "9", "-o", "b.spi3d")
+        nodes = [line.split() for line in (self.folder / "a.cube").read_text().splitlines() if line[:1].isdigit()]
+        # Red runs fastest in one, blue in the other.
+        found = {tuple(map(int, line.split()[:3])): line.split()[3:]
+                 for line in (self.folder / "b.spi3d").read_text().splitlines()[3:]}
+        for index, node in enumerate(nodes):
+            self.assertEqual(found[index % 9, index // 9 % 9, index // 81], node)
+        self.assertFails("bake", "--lut", "missing.cube", "-o", "c.cube", says=["missing.cube"])
+        (self.folder / "noise.cube").write_text("LUT_3D_SIZE banana\n")
+        self.assertFails("bake", "--lut", "noise.cube", "-o", "c.cube", says=["noise.cube", "cannot be read"])
+
+    def test_config_in_place_of_the_environment(self):
+        self.assertFails("bake", *DAY_TO_TUNGSTEN, "--iconfig", "missing.ocio", "-o", "a.cube", says=["missing.ocio"])
+        (self.folder / "studio.ocio").write_text(CONFIG)
+        self.assertWorks(
+            "bake", *DAY_TO_TUNGSTEN, "--iconfig", "studio.ocio", "--space", "plate", "--size", "9", "-o", "a.cube"
+        )
+        certificate = json.loads((self.folder / "a.cube.json").read_text())
+        self.assertEqual(certificate["recipe"]["space"], "plate")
+        # A picture space is no signal to tabulate over.
+        self.assertFails(
+            "bake", *DAY_TO_TUNGSTEN, "--iconfig", "studio.ocio", "--space", "display", "-o", "b.cube",
+            says=["space 'display'", "neither linear nor log", "name a log space, or write .ctf"],
+        )
+
+    def test_tolerance_says_what_was_tried(self):
+        lines = self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--tolerance", "3", "-o", "a.ctf").splitlines()
+        self.assertRegex(lines[0], "^identity: p99 ")
+        self.assertRegex(lines[1], "^matrix: p99 ")
+        self.assertRegex(lines[-1], "^exposure-invariant chain of [0-9]+ nodes: .*, chosen$")
+        certificate = json.loads((self.folder / "a.ctf.json").read_text())
+        self.assertEqual(len(certificate["transform"]["choice"]["tried"]), len(lines))
+        self.assertLessEqual(certificate["error"]["p99"], 3)
+        self.assertIn("the next cheaper, ", (self.folder / "a.ctf").read_text())
+        self.assertFails(
+            "bake", *DAY_TO_TUNGSTEN, "--tolerance", "0.001", "--size", "9", "-o", "b.cube",
+            says=["tolerance '0.001'", "log cube of 9 nodes", "write .ctf"],
+        )
+
+    def test_sampled_nodes_are_another_file(self):
+        self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--size", "17", "-o", "a.cube")
+        self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--size", "17", "--sampled", "-o", "b.cube")
+        fitted, sampled = (json.loads((self.folder / f"{n}.cube.json").read_text()) for n in "ab")
+        self.assertEqual([c["transform"]["nodes"] for c in (fitted, sampled)], ["fitted", "sampled"])
+        self.assertLess(fitted["error"]["p99"], sampled["error"]["p99"])
+
     def test_filters_shaper_scene(self):
         (self.folder / "gel.csv").write_text("nm,transmittance\n380,0.9\n580,0.2\n780,0.8\n")
         self.assertWorks(
@@ -117,6 +213,8 @@ class Bake(LutgenTest):
             ([*DAY_TO_TUNGSTEN, "--observer-in", "CIE 1931 3"], ["observer 'CIE 1931 3'", "CIE 1931 2"]),
             ([*DAY_TO_TUNGSTEN, "--space", "ACEScgg"], ["space 'ACEScgg'", "ACEScg"]),
             ([*DAY_TO_TUNGSTEN, "--shaper", "log"], ["shaper 'log'", "ACEScct"]),
+            ([*DAY_TO_TUNGSTEN, "--shaper", "linear"], ["shaper 'linear'", "is no logarithm", "ACEScct"]),
+            (["--illuminant-in", "FL99", "--illuminant-out", "A"], ["illuminant 'FL99'", "FL9"]),
             ([*DAY_TO_TUNGSTEN, "--adaptation", "nan"], ["adaptation 'nan'", "0 to 1"]),
             ([*DAY_TO_TUNGSTEN, "--scene", "dataset:nothing"], ["nothing", "list reflectances"]),
         ]:
