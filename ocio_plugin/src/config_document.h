@@ -39,8 +39,8 @@ class ConfigDocument {
 
   const std::string& text() const { return m_text; }
 
-  /// The text with looks, named transforms, colour spaces and a folder at the end of the search path added. Everything else is there
-  /// byte for byte, and the result is checked to be the same document but for them.
+  /// The text with looks, named transforms, colour spaces and a folder at the end of the search path added. Everything
+  /// else is there byte for byte, and the result is checked to be the same document but for them.
   /// @param looks, namedTransforms, colourSpaces  YAML block sequences ("- !<Look>\n  name: ..."), empty for none
   /// @param searchFolder                          empty: the search path stays
   /// @throws spectral::InputError where the text is written in a way that cannot be added to

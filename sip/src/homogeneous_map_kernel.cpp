@@ -232,7 +232,8 @@ HWY_INLINE void applyVector(const Map& map, const float* source, float* destinat
     float* pixel = destination + 4 * lane;
     if ((far >> lane & 1U) == 0U) {
       const auto patch = static_cast<std::size_t>(places.patch[lane]);
-      applyPatch(map.patches[patch].coefficients.data(), places.length[lane], places.u[lane], places.v[lane], alphas[lane], pixel);
+      applyPatch(map.patches[patch].coefficients.data(), places.length[lane], places.u[lane], places.v[lane],
+                 alphas[lane], pixel);
     } else {
       const std::array<float, 3> rgb = {pixel[0], pixel[1], pixel[2]};  // still the source's
       const Place place = locate(map, rgb.data());
