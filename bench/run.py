@@ -51,7 +51,7 @@ def main():
     arguments.out.mkdir(parents=True, exist_ok=True)
     file = arguments.out / "bench.json"
     # Sections keep their last figures until they are run again.
-    results = json.loads(file.read_text()) if file.exists() else {}
+    results = report.ordered(json.loads(file.read_text())) if file.exists() else {}
     print("machine:", timing.machine())
     for name in wanted:
         start = time.perf_counter()
