@@ -7,8 +7,6 @@ import numpy as np
 import PyOpenColorIO as ocio
 import skimage
 
-from timing import interleaved_medians  # noqa: F401  (one import for the sections)
-
 PAIRS = [("D65", "A"), ("D65", "HP1"), ("D65", "FL11"), ("D65", "LED-RGB1"), ("A", "D65"), ("FL11", "D50")]
 WIDTH, HEIGHT = 1920, 1080
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +8,7 @@
 #include "metamer/sip/homogeneous_map.h"
 #include "metamer/sip/recipe.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 #include "overrides.h"
 #include "picture.h"
 
@@ -28,9 +27,7 @@ struct ApplyOptions {
 };
 
 bool isRecipe(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = spectral::lowerCase(file.extension().string());
   return extension == ".yaml" || extension == ".yml";
 }
 

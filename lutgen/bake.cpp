@@ -103,9 +103,7 @@ void bake(const BakeArguments& arguments) {
     if (arguments.toStdout) {
       std::cout << text;
     } else {
-      spectral::PendingFile file(arguments.output);
-      file.write(text);
-      file.commit();
+      spectral::writeWholeFile(arguments.output, text);
     }
     return;
   }

@@ -8,9 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "metamer/ocio/pending_file.h"
 #include "metamer/spectral/chromatic_adaptation.h"
-#include "metamer/spectral/input_error.h"
+#include "picture.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -55,11 +54,7 @@ void writeChartFigure(const std::vector<ChartComparison>& charts, int columns, c
       fillSquare(canvas, left + kInset, top + kInset, kInner, displayed(srgbFromCamera * charts[c].made.col(i)));
     }
   }
-  ocio::PendingFile pending(file);
-  if (!canvas.write(pending.path().string(), OIIO::TypeDesc::UINT8)) {
-    throw spectral::InputError(file.string(), "figure", "", "cannot be written: " + canvas.geterror());
-  }
-  pending.commit();
+  writePixels(canvas, file, OIIO::TypeDesc::UINT8, "figure");
 }
 
 Eigen::Matrix3d displayFromCamera(const Eigen::Matrix3d& xyzFromCamera, const Eigen::Vector3d& whiteRgb,

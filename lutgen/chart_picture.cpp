@@ -12,6 +12,7 @@
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
 #include "picture.h"
 
 namespace metamer::lutgen {
@@ -25,9 +26,7 @@ constexpr double kClearlyMoreAlike = 0.2;
 constexpr Eigen::Index kFewestPatchesOfATurn = 12;
 
 bool isTable(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = spectral::lowerCase(file.extension().string());
   return extension == ".csv" || extension == ".txt" || extension == ".tsv";
 }
 

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "metamer/ocio/pending_file.h"
-#include "metamer/spectral/input_error.h"
+#include "picture.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -75,11 +74,7 @@ void writeCheckPicture(const Picture& picture, const sip::ChartGrid& grid, const
       }
     }
   }
-  ocio::PendingFile pending(file);
-  if (!canvas.write(pending.path().string(), OIIO::TypeDesc::UINT8)) {
-    throw spectral::InputError(file.string(), "check picture", "", "cannot be written: " + canvas.geterror());
-  }
-  pending.commit();
+  writePixels(canvas, file, OIIO::TypeDesc::UINT8, "check picture");
 }
 
 }  // namespace metamer::lutgen

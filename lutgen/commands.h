@@ -5,6 +5,9 @@
 
 namespace metamer::lutgen {
 
+/// Exit code of a verdict: what was measured is beyond the tolerance.
+inline constexpr int kExceeded = 3;
+
 /// Each adds one subcommand, which does its work when the command line has been parsed.
 void addBake(CLI::App& application);
 void addApply(CLI::App& application);

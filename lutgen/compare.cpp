@@ -11,10 +11,11 @@
 #include "compare_report.h"
 #include "heat_map.h"
 #include "metamer/ocio/compared_transform.h"
-#include "metamer/ocio/pending_file.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/working_space.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/text.h"
 #include "picture.h"
 
 namespace metamer::lutgen {
@@ -22,8 +23,6 @@ namespace {
 
 using spectral::InputError;
 
-/// Beyond the tolerance: told apart from failures, so that a build can.
-constexpr int kExceeded = 3;
 constexpr const char* kConfigMark = ".ocio:";
 
 struct CompareArguments {
@@ -41,10 +40,7 @@ struct CompareArguments {
 enum class Kind { Recipe, Look, Picture, File };
 
 std::string extensionOf(const std::string& name) {
-  std::string extension = std::filesystem::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
+  return spectral::lowerCase(std::filesystem::path(name).extension().string());
 }
 
 Kind kindOf(const std::string& name) {
@@ -187,12 +183,9 @@ class Comparer {
 };
 
 void writeText(const std::string& file, const std::string& text) {
-  if (file.empty()) {
-    return;
+  if (!file.empty()) {
+    spectral::writeWholeFile(file, text);
   }
-  ocio::PendingFile pending(file);
-  pending.write(text);
-  pending.commit();
 }
 
 void compare(const CompareArguments& arguments) {

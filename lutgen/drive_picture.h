@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "metamer/ocio/pending_file.h"
 #include "metamer/sip/stage_geometry.h"
+#include "metamer/spectral/pending_file.h"
 
 namespace metamer::lutgen {
 
@@ -24,7 +24,7 @@ class DrivePicture {
   void close();
 
  private:
-  ocio::PendingFile m_pending;
+  spectral::PendingFile m_pending;
   std::unique_ptr<OIIO::ImageOutput> m_output;
 };
 

@@ -10,14 +10,12 @@
 #include <numbers>
 #include <vector>
 
-#include "metamer/ocio/pending_file.h"
 #include "metamer/spectral/colorimetry.h"
-#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
+#include "picture.h"
 
 namespace metamer::lutgen {
 namespace {
-
-using spectral::InputError;
 
 constexpr float kBackground = 0.15F;
 constexpr float kNothing = -1.0F;  ///< no colour fell here
@@ -113,23 +111,11 @@ class Sheet {
     OIIO::ImageBufAlgo::render_text(m_pixels, x, y, words, size, "DejaVuSans", {0.9F, 0.9F, 0.9F});
     m_pixels.geterror();  // no font: no words
   }
-  void write(const std::filesystem::path& file) {
-    ocio::PendingFile pending(file);
-    if (!m_pixels.write(pending.path().string(), OIIO::TypeDesc::UINT8, "png")) {
-      throw InputError(file.string(), "plot", "", "cannot be written: " + m_pixels.geterror());
-    }
-    pending.commit();
-  }
+  void write(const std::filesystem::path& file) { writePixels(m_pixels, file, OIIO::TypeDesc::UINT8, "plot", "png"); }
 
  private:
   OIIO::ImageBuf m_pixels;
 };
-
-std::string shortNumber(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
 
 void drawChromaticities(Sheet& sheet, const sip::Comparison& comparison, const spectral::RgbSpace& space,
                         const spectral::Observer& observer, int left, double scale) {
@@ -189,8 +175,8 @@ void drawExposures(Sheet& sheet, const sip::Comparison& comparison, const spectr
   sheet.draw(grid, left, kMargin, kPanel, kPanel, scale);
   sheet.frame(left, kMargin, kPanel, kPanel);
   sheet.text(left, kMargin - 8, "hue round the white, 0 to 360 degrees upward, over exposure");
-  sheet.text(left, kMargin + kPanel + 18, shortNumber(lowest) + " stops");
-  sheet.text(left + kPanel - 70, kMargin + kPanel + 18, shortNumber(highest) + " stops");
+  sheet.text(left, kMargin + kPanel + 18, spectral::threeDigits(lowest) + " stops");
+  sheet.text(left + kPanel - 70, kMargin + kPanel + 18, spectral::threeDigits(highest) + " stops");
 }
 
 void drawPicture(Sheet& sheet, const sip::Comparison& comparison, int width, int left, double scale) {
@@ -217,7 +203,7 @@ void drawScale(Sheet& sheet, int left, double scale) {
   }
   sheet.draw(grid, left, kMargin, kBar, kPanel, scale);
   sheet.frame(left, kMargin, kBar, kPanel);
-  sheet.text(left, kMargin - 8, shortNumber(scale));
+  sheet.text(left, kMargin - 8, spectral::threeDigits(scale));
   sheet.text(left, kMargin + kPanel + 18, "0");
 }
 

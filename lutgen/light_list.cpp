@@ -10,6 +10,7 @@
 #include "formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -19,19 +20,12 @@ using spectral::InputError;
 constexpr int kMostCellsAcross = 1024;
 constexpr std::size_t kMostLights = 10'000;
 
-std::string trimmed(const std::string& text) {
-  const auto isBlank = [](unsigned char c) { return std::isspace(c) != 0; };
-  const auto first = std::find_if_not(text.begin(), text.end(), isBlank);
-  const auto last = std::find_if_not(text.rbegin(), std::make_reverse_iterator(first), isBlank).base();
-  return {first, last};
-}
-
 std::vector<std::string> cellsOf(const std::string& line) {
   std::vector<std::string> cells;
   std::istringstream stream(line);
   std::string cell;
   while (std::getline(stream, cell, ',')) {
-    cells.push_back(trimmed(cell));
+    cells.emplace_back(spectral::trimmed(cell));
   }
   return cells;
 }
@@ -43,7 +37,7 @@ LightList::LightList(const std::filesystem::path& file, sip::LatLong layout) : m
   std::string line;
   bool hasHeader = false;
   for (int number = 1; std::getline(stream, line); ++number) {
-    line = trimmed(line);
+    line = std::string(spectral::trimmed(line));
     if (line.empty() || line.front() == '#') {
       continue;
     }

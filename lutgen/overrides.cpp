@@ -2,32 +2,26 @@
 #include "overrides.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::lutgen {
 namespace {
 
 using spectral::InputError;
 
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 /// A name as it is; a file by its whole path, so that it is not looked for beside the recipe.
 std::string fromWorkingFolder(const std::string& nameOrFile, const std::vector<std::string>& names) {
-  constexpr std::array<const char*, 5> kExtensions = {".csv", ".txt", ".tsv", ".spdx", ".json"};
-  const auto isName = [&](const std::string& name) { return lowerCase(name) == lowerCase(nameOrFile); };
-  const std::string extension = lowerCase(std::filesystem::path(nameOrFile).extension().string());
-  const bool isFile = nameOrFile.find_first_of("/\\") != std::string::npos ||
-                      std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-  if (!isFile || std::any_of(names.begin(), names.end(), isName)) {
+  const auto isName = [&](const std::string& name) {
+    return spectral::lowerCase(name) == spectral::lowerCase(nameOrFile);
+  };
+  if (!spectral::looksLikeSpectralFile(nameOrFile) || std::any_of(names.begin(), names.end(), isName)) {
     return nameOrFile;
   }
   return std::filesystem::absolute(nameOrFile).lexically_normal().string();

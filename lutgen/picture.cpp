@@ -8,8 +8,8 @@
 #include <cmath>
 #include <vector>
 
-#include "metamer/ocio/pending_file.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
 
 namespace metamer::lutgen {
 
@@ -102,12 +102,17 @@ void decodeSrgb(std::span<float> rgba) {
   }
 }
 
-void Picture::write(const std::filesystem::path& file) const {
-  ocio::PendingFile pending(file);
-  if (!m_pixels.write(pending.path().string(), OIIO::TypeDesc::FLOAT)) {
-    throw InputError(file.string(), "output", "", "cannot be written: " + m_pixels.geterror());
+void writePixels(const OIIO::ImageBuf& pixels, const std::filesystem::path& file, OIIO::TypeDesc type,
+                 const std::string& field, const std::string& format) {
+  spectral::PendingFile pending(file);
+  if (!pixels.write(pending.path().string(), type, format)) {
+    throw InputError(file.string(), field, "", "cannot be written: " + pixels.geterror());
   }
   pending.commit();
+}
+
+void Picture::write(const std::filesystem::path& file) const {
+  writePixels(m_pixels, file, OIIO::TypeDesc::FLOAT, "output");
 }
 
 }  // namespace metamer::lutgen

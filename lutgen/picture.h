@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace metamer::lutgen {
@@ -47,6 +48,12 @@ class Picture {
   OIIO::ImageBuf m_pixels;
   std::array<int, 3> m_colours{};  ///< channels of red, green, blue
 };
+
+/// Writes pixels whole or not at all. @param field  what messages call the picture
+/// @param format  of OpenImageIO; by the extension where empty
+/// @throws spectral::InputError
+void writePixels(const OIIO::ImageBuf& pixels, const std::filesystem::path& file, OIIO::TypeDesc type,
+                 const std::string& field, const std::string& format = {});
 
 /// The sRGB curve (IEC 61966-2-1) undone on the colours of RGBA pixels, in place.
 void decodeSrgb(std::span<float> rgba);

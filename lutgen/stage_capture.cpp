@@ -12,6 +12,7 @@
 #include "metamer/sip/wall_spectra.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -22,16 +23,10 @@ constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
 /// Taken for the camera's linear RGB where nothing is said of it.
 constexpr const char* kAssumedSpace = "ACEScg";
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 std::vector<int> patchesWith(const std::vector<std::string>& names, const std::string& word, bool atStart) {
   std::vector<int> found;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::size_t at = lower(names[i]).find(lower(word));
+    const std::size_t at = spectral::lowerCase(names[i]).find(spectral::lowerCase(word));
     if (at != std::string::npos && (!atStart || at == 0)) {
       found.push_back(static_cast<int>(i));
     }
@@ -52,7 +47,7 @@ void findWhite(const sip::StageDescription& stage, StageCapture& capture) {
   }
   std::string reason = "is not among the patches";
   for (const sip::ExcludedPatch& patch : capture.excluded) {
-    if (lower(patch.name) == lower(wanted)) {
+    if (spectral::lowerCase(patch.name) == spectral::lowerCase(wanted)) {
       reason = "was left out: " + patch.reason;
     }
   }
@@ -157,7 +152,7 @@ void readCharts(const sip::StageDescription& stage, const spectral::DataLibrary&
 
 int patchNamed(const std::vector<std::string>& names, const std::string& name) {
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (lower(names[i]) == lower(name)) {
+    if (spectral::lowerCase(names[i]) == spectral::lowerCase(name)) {
       return static_cast<int>(i);
     }
   }

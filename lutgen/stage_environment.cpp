@@ -17,6 +17,7 @@
 #include "light_list.h"
 #include "metamer/sip/environment_drive.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
 #include "progress.h"
 #include "stage_capture.h"
 #include "stage_commands.h"
@@ -180,7 +181,7 @@ void drive(const EnvironmentOptions& options) {
     output->close();
   }
   if (lights) {
-    writeText(options.lightsOutput, lights->drivesAsCsv(*stage.driver, stage.names));
+    spectral::writeWholeFile(options.lightsOutput, lights->drivesAsCsv(*stage.driver, stage.names));
   }
   for (const sip::ExcludedPatch& patch : stage.excluded) {
     std::cout << "excluded: " << patch.name << ": " << patch.reason << '\n';

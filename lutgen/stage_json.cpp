@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "metamer/ocio/pending_file.h"
+#include "metamer/spectral/pending_file.h"
 
 namespace metamer::lutgen {
 
@@ -34,15 +34,9 @@ std::string relativeTo(const std::filesystem::path& report, const std::filesyste
   return std::filesystem::proximate(file, std::filesystem::absolute(report).parent_path()).generic_string();
 }
 
-void writeText(const std::filesystem::path& file, const std::string& text) {
-  ocio::PendingFile pending(file);
-  pending.write(text);
-  pending.commit();
-}
-
 void writeJson(const std::filesystem::path& file, const Json& json) {
   // Bytes of a name that are not UTF-8 are replaced: the file must stay JSON.
-  writeText(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  spectral::writeWholeFile(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace metamer::lutgen

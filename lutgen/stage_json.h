@@ -22,7 +22,6 @@ std::string relativeTo(const std::filesystem::path& report, const std::filesyste
 
 /// Writes a file whole or not at all.
 /// @throws spectral::InputError
-void writeText(const std::filesystem::path& file, const std::string& text);
 void writeJson(const std::filesystem::path& file, const Json& json);
 
 }  // namespace metamer::lutgen

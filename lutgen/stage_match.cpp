@@ -9,6 +9,7 @@
 #include "match_outcome.h"
 #include "metamer/sip/emitter_match.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_similarity_index.h"
 #include "stage_capture.h"
 #include "stage_commands.h"
@@ -162,7 +163,7 @@ void match(const MatchOptions& options) {
     writeFigure(outcome, library, options.figure);
   }
   if (!options.report.empty()) {
-    writeText(options.report, reportOf(outcome, relativeTo(options.report, options.figure)));
+    spectral::writeWholeFile(options.report, reportOf(outcome, relativeTo(options.report, options.figure)));
   }
   writeJson(options.output, toJson(outcome));
   std::cout << summaryOf(outcome);

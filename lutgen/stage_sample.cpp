@@ -9,6 +9,7 @@
 #include "metamer/sip/emitter_model.h"
 #include "metamer/sip/panel_linearity.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 #include "stage_commands.h"
 #include "stage_json.h"
@@ -64,7 +65,7 @@ void sample(const SampleOptions& options) {
     }
     text += "\n";
   }
-  writeText(options.output, text);
+  spectral::writeWholeFile(options.output, text);
   for (const std::string& note : notes) {
     std::cout << "note: " << note << '\n';
   }
@@ -121,7 +122,7 @@ void emitter(const std::string& model, const std::string& output) {
   for (std::size_t i = 0; i < found->spectrum.values().size(); ++i) {
     text += formatted("%g,%.9g\n", found->spectrum.wavelengthsNm()[i], found->spectrum.values()[i]);
   }
-  writeText(output, text);
+  spectral::writeWholeFile(output, text);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "chart_figure.h"
 #include "metamer/ocio/stage_config.h"
+#include "metamer/spectral/pending_file.h"
 #include "stage_capture.h"
 #include "stage_commands.h"
 #include "stage_json.h"
@@ -47,7 +48,8 @@ void solve(const SolveOptions& options) {
   const auto library = spectral::DataLibrary::openDefault();
   const StageResult result = solveStage(sip::readStage(options.stage), library, options.checkPictures);
   if (!options.config.empty()) {
-    writeText(options.config, ocio::stageConfigText(matricesOf(result), library, options.config, options.base));
+    spectral::writeWholeFile(options.config,
+                             ocio::stageConfigText(matricesOf(result), library, options.config, options.base));
   }
   if (!options.luts.empty()) {
     ocio::writeStageFiles(matricesOf(result), options.luts);
@@ -57,7 +59,7 @@ void solve(const SolveOptions& options) {
   }
   if (!options.report.empty()) {
     const std::string figure = relativeTo(options.report, options.figure);
-    writeText(options.report, reportOf(result, figure));
+    spectral::writeWholeFile(options.report, reportOf(result, figure));
   }
   writeJson(options.output, toJson(result));
   std::cout << summaryOf(result);

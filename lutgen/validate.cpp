@@ -6,14 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "metamer/ocio/pending_file.h"
 #include "metamer/spectral/pending_file.h"
 #include "validation.h"
 
 namespace metamer::lutgen {
 namespace {
-
-constexpr int kExceeded = 3;
 
 struct ValidateArguments {
   std::string recipe;
@@ -109,9 +106,7 @@ void run(const ValidateArguments& arguments) {
   json["led_wall"] = summary(result.wall);
   print(json);
   if (!arguments.json.empty()) {
-    spectral::PendingFile file(arguments.json);
-    file.write(json.dump(1) + "\n");
-    file.commit();
+    spectral::writeWholeFile(arguments.json, json.dump(1) + "\n");
   }
   const double beyond = json["scenes"][0]["beyond_noise"].get<double>();
   if (beyond > arguments.tolerance) {

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "metamer/ocio/bake.h"
 #include "metamer/ocio/pixel_processor.h"
@@ -53,17 +54,28 @@ Chart perfectReflectors(const Chart& like) {
   return {like.names, std::vector<DomainSamples>(like.names.size(), DomainSamples::Ones())};
 }
 
+/// One side of a recipe: what it sees, and what becomes of it in the working space.
+struct Side {
+  sip::PreparedPipeline pipeline;
+  spectral::Observer observer;
+  Eigen::Matrix3d rgbFromResponse;
+  std::map<std::size_t, Eigen::RowVectorXd> geometry;  ///< by number of patches
+};
+
 /// The recipe's two sides, its exact engine and its baked transform.
 class Validator {
  public:
   Validator(const sip::Recipe& recipe, const spectral::DataLibrary& library, const ValidationOptions& options)
       : m_options(options),
         m_spec(sip::resolve(recipe, library)),
-        m_input(prepare(m_spec.input, m_spec.training, m_spec.standardObserver)),
-        m_output(prepare(m_spec.output, m_spec.training, m_spec.standardObserver)),
         m_engine(m_spec, sip::kConvergedBandCount),
-        m_baked(ocio::bake(linear(recipe), library, {}).group),
-        m_rgbFromResponse(m_engine.responseFromRgb().inverse() * m_input.white.cwiseInverse().asDiagonal()) {
+        m_baked(ocio::bake(recipe, library, {}).group),
+        m_input{prepare(m_spec.input, m_spec.training, m_spec.standardObserver), m_spec.input.observer, {}, {}},
+        m_output{prepare(m_spec.output, m_spec.training, m_spec.standardObserver),
+                 m_spec.output.observer,
+                 m_engine.rgbFromOutputResponse(),
+                 {}} {
+    m_input.rgbFromResponse = m_engine.responseFromRgb().inverse() * m_input.pipeline.white.cwiseInverse().asDiagonal();
     const auto& chart = library.reflectances(kChart);
     const auto named = [&](const char* name) {
       return std::find_if(chart.samples.begin(), chart.samples.end(), [&](const auto& s) { return s.name() == name; })
@@ -76,17 +88,17 @@ class Validator {
   Chart smoothed(const Chart& chart) const {
     Chart result = chart;
     for (DomainSamples& reflectance : result.reflectances) {
-      if (const auto smooth = m_engine.reflectance(m_rgbFromResponse * response(m_input, reflectance))) {
+      if (const auto smooth = m_engine.reflectance(rgbOf(reflectance, m_input))) {
         reflectance = *smooth * std::min(1.0, kBrightest / smooth->maxCoeff());
       }
     }
     return result;
   }
 
-  SceneValidation run(const std::string& name, const std::string& about, const Chart& chart, Stage stage) const {
+  SceneValidation run(const std::string& name, const std::string& about, const Chart& chart, Stage stage) {
     SceneValidation result{name, about, stage == Stage::OpenBox, {}};
-    const auto input = rgbOf(chart, stage, m_input, m_spec.input.observer, m_rgbFromResponse);
-    const auto truth = rgbOf(chart, stage, m_output, m_spec.output.observer, m_engine.rgbFromOutputResponse());
+    const auto input = rgbOf(chart, stage, m_input);
+    const auto truth = rgbOf(chart, stage, m_output);
     for (std::size_t i = 0; i < chart.names.size(); ++i) {
       PatchValidation patch;
       patch.name = chart.names[i];
@@ -106,8 +118,8 @@ class Validator {
       patch.representation = spectral::deltaE2000(lab(file), lab(exact));
       patch.noise = intervalOfMean(lab(wanted), differences);
       const DomainSamples& reflectance = chart.reflectances[i];
-      const Vector3d known = m_engine.rgbFromOutputResponse() * response(m_output, reflectance);
-      const Vector3d guessed = m_engine.apply(m_rgbFromResponse * response(m_input, reflectance));
+      const Vector3d known = rgbOf(reflectance, m_output);
+      const Vector3d guessed = m_engine.apply(rgbOf(reflectance, m_input));
       patch.metamerism = spectral::deltaE2000(lab(guessed), lab(known));
       result.patches.push_back(patch);
     }
@@ -115,38 +127,37 @@ class Validator {
   }
 
   WallValidation wall(const Chart& chart) const {
-    return validateWall(chart, m_input, m_spec.input.observer, m_walls, m_options);
+    return validateWall(chart, m_input.pipeline, m_input.observer, m_walls, m_options);
   }
 
  private:
-  static sip::Recipe linear(sip::Recipe recipe) {
-    recipe.space = "ACEScg";
-    return recipe;
+  /// RGB of a surface known by its spectrum.
+  static Vector3d rgbOf(const DomainSamples& reflectance, const Side& side) {
+    return side.rgbFromResponse * (side.pipeline.curves.transpose() * side.pipeline.light.cwiseProduct(reflectance));
   }
 
-  static Vector3d response(const sip::PreparedPipeline& pipeline, const DomainSamples& reflectance) {
-    return pipeline.curves.transpose() * pipeline.light.cwiseProduct(reflectance);
+  std::vector<Eigen::Matrix3Xd> render(const Chart& chart, Stage stage, const Side& side) const {
+    return renderPatches(sceneOf(chart, stage, side.pipeline.light, side.observer, m_walls), chart,
+                         m_options.replicates, m_options.samples, m_options.seed, m_options.threads);
   }
 
-  /// RGB of the patches, a matrix a replicate: responses over what a perfect reflector in the patch's place sends.
-  std::vector<Eigen::Matrix3Xd> rgbOf(const Chart& chart, Stage stage, const sip::PreparedPipeline& pipeline,
-                                      const spectral::Observer& observer,
-                                      const Eigen::Matrix3d& rgbFromResponse) const {
-    const auto render = [&](const Chart& shown, Stage lit, int replicates) {
-      return renderPatches(sceneOf(shown, lit, pipeline.light, observer, m_walls), shown, replicates, m_options.samples,
-                           m_options.seed, m_options.threads);
-    };
-    auto rendered = render(chart, stage, m_options.replicates);
-    // Geometry alone: the same for all channels, so their mean is the best estimate.
-    const auto whites = render(perfectReflectors(chart), Stage::SmallLamp, m_options.replicates);
-    Eigen::Matrix3Xd white = Eigen::Matrix3Xd::Zero(3, whites.front().cols());
-    for (const auto& one : whites) {
-      white += one / static_cast<double>(whites.size());
+  /// What a perfect reflector in each patch's place sends, over what it would without geometry. The same for all
+  /// channels, so their mean is the best estimate; and for all charts of as many patches, so it is rendered once.
+  const Eigen::RowVectorXd& geometryOf(const Chart& chart, Side& side) const {
+    const auto [place, isNew] = side.geometry.try_emplace(chart.names.size());
+    if (isNew) {
+      const Eigen::Matrix3Xd white = meanOf(render(perfectReflectors(chart), Stage::SmallLamp, side));
+      place->second = (side.pipeline.white.cwiseInverse().asDiagonal() * white).colwise().mean();
     }
-    const Eigen::RowVectorXd geometry =
-        (pipeline.white.cwiseInverse().asDiagonal() * white).colwise().mean().cwiseInverse();
+    return place->second;
+  }
+
+  /// RGB of the patches, a matrix a replicate: responses over the patches' geometry.
+  std::vector<Eigen::Matrix3Xd> rgbOf(const Chart& chart, Stage stage, Side& side) const {
+    const Eigen::RowVectorXd exposure = geometryOf(chart, side).cwiseInverse();
+    auto rendered = render(chart, stage, side);
     for (auto& one : rendered) {
-      one = (rgbFromResponse * one * geometry.asDiagonal()).eval();
+      one = (side.rgbFromResponse * one * exposure.asDiagonal()).eval();
     }
     return rendered;
   }
@@ -164,11 +175,10 @@ class Validator {
 
   ValidationOptions m_options;
   sip::TransformSpec m_spec;
-  sip::PreparedPipeline m_input;
-  sip::PreparedPipeline m_output;
   sip::SpectralTransform m_engine;
   ocio::PixelProcessor m_baked;
-  Eigen::Matrix3d m_rgbFromResponse;
+  Side m_input;
+  Side m_output;
   std::array<DomainSamples, 3> m_walls;
 };
 
@@ -177,7 +187,7 @@ class Validator {
 Validation validate(const sip::Recipe& recipe, const spectral::DataLibrary& library, const ValidationOptions& options) {
   sip::Recipe linear = recipe;
   linear.space = "ACEScg";
-  const Validator validator(linear, library, options);
+  Validator validator(linear, library, options);
   const Chart chart = chartOf(library.reflectances(kChart).samples);
   Validation result;
   result.scenes.push_back(validator.run("smooth objects",

@@ -146,4 +146,12 @@ std::vector<Eigen::Matrix3Xd> renderPatches(const Scene& scene, const Chart& cha
   return means;
 }
 
+Eigen::Matrix3Xd meanOf(const std::vector<Eigen::Matrix3Xd>& replicates) {
+  Eigen::Matrix3Xd mean = Eigen::Matrix3Xd::Zero(3, replicates.front().cols());
+  for (const Eigen::Matrix3Xd& one : replicates) {
+    mean += one / static_cast<double>(replicates.size());
+  }
+  return mean;
+}
+
 }  // namespace metamer::lutgen

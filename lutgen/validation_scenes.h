@@ -35,4 +35,7 @@ spectral_ref::Scene sceneOf(const Chart& chart, Stage stage, const spectral::Dom
 std::vector<Eigen::Matrix3Xd> renderPatches(const spectral_ref::Scene& scene, const Chart& chart, int replicates,
                                             int samples, std::uint32_t seed, int threads);
 
+/// Over the replicates.
+Eigen::Matrix3Xd meanOf(const std::vector<Eigen::Matrix3Xd>& replicates);
+
 }  // namespace metamer::lutgen

@@ -20,14 +20,6 @@ using spectral::DomainSamples;
 /// Peak and half spectral width of the wall's channels, nm: a model of a common RGB panel.
 constexpr std::array<std::array<double, 2>, 3> kPanel = {{{625, 18}, {530, 32}, {465, 22}}};
 
-Matrix3Xd meanOf(const std::vector<Matrix3Xd>& replicates) {
-  Matrix3Xd mean = Matrix3Xd::Zero(3, replicates.front().cols());
-  for (const Matrix3Xd& one : replicates) {
-    mean += one / static_cast<double>(replicates.size());
-  }
-  return mean;
-}
-
 }  // namespace
 
 WallValidation validateWall(const Chart& chart, const sip::PreparedPipeline& realPlace,

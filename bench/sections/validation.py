@@ -9,7 +9,6 @@ from pathlib import Path
 LIGHTS = (("D65", "A"), ("D65", "HP1"), ("D65", "LED-RGB1"))
 
 
-
 def run(context):
     rows = []
     for source, destination in LIGHTS:

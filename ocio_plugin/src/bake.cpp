@@ -7,9 +7,9 @@
 
 #include "bake_operators.h"
 #include "ladder.h"
-#include "metamer/ocio/pending_file.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 
 namespace metamer::ocio {
@@ -118,8 +118,8 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
                      const std::string& formatName, const BakeOptions& options) {
   const LutFormat& format = lutFormat(file, formatName);
   // The places first: what cannot be written is not worth the work.
-  PendingFile lut(file);
-  PendingFile json(file.string() + ".json");
+  spectral::PendingFile lut(file);
+  spectral::PendingFile json(file.string() + ".json");
 
   const Prepared prepared = prepare(recipe, library, options);
   const sip::ErrorProtocol::Options probes = probesOf(format, prepared, options);

@@ -9,6 +9,7 @@
 
 #include "config_document.h"
 #include "config_spaces.h"
+#include "interchange.h"
 #include "matrix_operator.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/shaper.h"
@@ -16,6 +17,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
@@ -23,7 +25,6 @@ namespace {
 using spectral::InputError;
 using PixelFunction = std::function<void(std::span<float> rgba)>;
 
-constexpr const char* kInterchangeRole = "aces_interchange";
 constexpr const char* kChart = "colorchecker";
 /// What log footage carries, short of the curve's last two stops: a file of unknown making is judged on it.
 constexpr int kSignalStops = 7;
@@ -38,7 +39,7 @@ sip::ErrorProtocol::Options signalProbes(spectral::LogEncoding encoding) {
 }
 
 bool holdsSignal(const std::filesystem::path& file) {
-  const std::string extension = lowerCase(file.extension().string());
+  const std::string extension = spectral::lowerCase(file.extension().string());
   return extension != ".ctf" && extension != ".clf";
 }
 

@@ -3,16 +3,16 @@
 
 #include <algorithm>
 
+#include "interchange.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
 
 using spectral::InputError;
 namespace fs = std::filesystem;
-
-constexpr const char* kInterchangeRole = "aces_interchange";
 
 fs::path folderOf(const fs::path& file) {
   return fs::absolute(file).lexically_normal().parent_path();
@@ -40,7 +40,7 @@ bool isFound(const std::string& src, const ConfigFacts& facts, const fs::path& f
 }
 
 void refuseArchives(const fs::path& base) {
-  const std::string name = lowerCase(base.string());
+  const std::string name = spectral::lowerCase(base.string());
   if (name.rfind("ocio:", 0) == 0) {
     throw InputError("", "base", base.string(),
                      "is built into OCIO; save it as a file first: python -c \"import PyOpenColorIO as o; "

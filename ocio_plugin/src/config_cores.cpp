@@ -9,12 +9,14 @@
 #include <set>
 
 #include "config_spaces.h"
+#include "interchange.h"
 #include "matrix_operator.h"
 #include "metamer/ocio/lut_writer.h"
-#include "metamer/ocio/pending_file.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/text.h"
 #include "short_tables.h"
 
 namespace metamer::ocio {
@@ -22,8 +24,6 @@ namespace {
 
 using spectral::InputError;
 
-constexpr const char* kInterchangeRole = "aces_interchange";
-constexpr const char* kInterchangeSpace = "ACES2065-1";
 constexpr const char* kChart = "colorchecker";
 constexpr int kChainSize = 65;
 constexpr double kLargestNeutralGain = 0.02;
@@ -53,7 +53,7 @@ Place placeOf(const sip::Recipe& recipe, const ConfigFacts& facts, const spectra
   std::vector<std::string> known;
   for (const spectral::ColourSpace& space : library.colourSpaces()) {
     known.push_back(space.name);
-    if (lowerCase(space.name) == lowerCase(recipe.space)) {
+    if (spectral::lowerCase(space.name) == spectral::lowerCase(recipe.space)) {
       Place place;
       place.linearSpace = space.linear.name;
       place.encoding = space.encoding ? "log" : "scene-linear";
@@ -256,9 +256,9 @@ std::vector<ConfigCore> coresOf(const std::vector<sip::Recipe>& recipes, const C
   for (ConfigCore& core : cores) {
     core.recipe.adaptation = middleAdaptation(core.uses);
     core.name = commonName(core.uses);
-    if (!names.insert(lowerCase(core.name)).second) {
+    if (!names.insert(spectral::lowerCase(core.name)).second) {
       core.name = core.uses.front().recipe.name;
-      names.insert(lowerCase(core.name));
+      names.insert(spectral::lowerCase(core.name));
     }
     core.recipe.name = core.name;
   }
@@ -316,7 +316,7 @@ BakedCore bakeCore(const ConfigCore& core, const spectral::DataLibrary& library,
                                      result.certificate.lines()};
     return shortTables(lutText(lutFormat("core.ctf", ""), group, result.certificate.size, description));
   };
-  PendingFile trial(folder / "trial.ctf");
+  spectral::PendingFile trial(folder / "trial.ctf");
   trial.write(textOf(result.group));
   result.group = withExactNeutrals(result.group, PixelProcessor::fromFile(trial.path()),
                                    sip::SpectralTransform(specOf(core, library)));

@@ -53,7 +53,4 @@ class ConfigDocument {
   ConfigFacts m_facts;
 };
 
-/// ASCII letters in lower case.
-std::string lowerCase(std::string text);
-
 }  // namespace metamer::ocio

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
@@ -98,13 +99,13 @@ void readSpaces(const YAML::Node& root, const char* key, ConfigFacts& facts) {
       continue;
     }
     facts.spaceNames.push_back(name);
-    facts.spaces.emplace(lowerCase(name), name);
-    facts.taken.insert(lowerCase(name));
+    facts.spaces.emplace(spectral::lowerCase(name), name);
+    facts.taken.insert(spectral::lowerCase(name));
     for (const std::string& alias : listOf(space, "aliases")) {
-      facts.spaces.emplace(lowerCase(alias), name);
-      facts.taken.insert(lowerCase(alias));
+      facts.spaces.emplace(spectral::lowerCase(alias), name);
+      facts.taken.insert(spectral::lowerCase(alias));
     }
-    if (lowerCase(textOf(space, "isdata")) == "true") {
+    if (spectral::lowerCase(textOf(space, "isdata")) == "true") {
       facts.dataSpaces.insert(name);
     }
   }
@@ -112,19 +113,13 @@ void readSpaces(const YAML::Node& root, const char* key, ConfigFacts& facts) {
 
 }  // namespace
 
-std::string lowerCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
 std::optional<std::string> ConfigFacts::space(const std::string& name) const {
-  const std::string wanted = lowerCase(name);
+  const std::string wanted = spectral::lowerCase(name);
   if (const auto found = spaces.find(wanted); found != spaces.end()) {
     return found->second;
   }
   if (const auto role = roles.find(wanted); role != roles.end()) {
-    if (const auto found = spaces.find(lowerCase(role->second)); found != spaces.end()) {
+    if (const auto found = spaces.find(spectral::lowerCase(role->second)); found != spaces.end()) {
       return found->second;
     }
   }
@@ -158,22 +153,22 @@ ConfigFacts readConfigFacts(const YAML::Node& root, const std::string& where) {
   if (const YAML::Node roles = root["roles"]; roles && roles.IsMap()) {
     for (const auto& role : roles) {
       if (role.first.IsScalar() && role.second.IsScalar()) {
-        facts.roles.emplace(lowerCase(role.first.Scalar()), role.second.Scalar());
-        facts.taken.insert(lowerCase(role.first.Scalar()));
+        facts.roles.emplace(spectral::lowerCase(role.first.Scalar()), role.second.Scalar());
+        facts.taken.insert(spectral::lowerCase(role.first.Scalar()));
       }
     }
   }
   if (const YAML::Node transforms = root["named_transforms"]; transforms && transforms.IsSequence()) {
     for (const auto& transform : transforms) {
-      facts.taken.insert(lowerCase(textOf(transform, "name")));
+      facts.taken.insert(spectral::lowerCase(textOf(transform, "name")));
       for (const std::string& alias : listOf(transform, "aliases")) {
-        facts.taken.insert(lowerCase(alias));
+        facts.taken.insert(spectral::lowerCase(alias));
       }
     }
   }
   if (const YAML::Node looks = root["looks"]; looks && looks.IsSequence()) {
     for (const auto& look : looks) {
-      facts.looks.insert(lowerCase(textOf(look, "name")));
+      facts.looks.insert(spectral::lowerCase(textOf(look, "name")));
     }
   }
   readFiles(root, facts);

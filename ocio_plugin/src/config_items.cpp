@@ -3,24 +3,18 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <array>
-#include <charconv>
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), result.ptr};
-}
 
 void emitMatrix(YAML::Emitter& yaml, const Eigen::Matrix3d& matrix) {
   yaml << YAML::VerbatimTag("MatrixTransform") << YAML::Flow << YAML::BeginMap << YAML::Key << "matrix" << YAML::Value
        << YAML::Flow << YAML::BeginSeq;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
-      yaml << number(row < 3 && column < 3 ? matrix(row, column) : static_cast<double>(row == column));
+      yaml << spectral::shortestNumber(row < 3 && column < 3 ? matrix(row, column)
+                                                             : static_cast<double>(row == column));
     }
   }
   yaml << YAML::EndSeq << YAML::EndMap;

@@ -15,8 +15,9 @@
 #include "config_document.h"
 #include "config_items.h"
 #include "config_loader.h"
-#include "metamer/ocio/pending_file.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/text.h"
 #include "new_config.h"
 
 namespace metamer::ocio {
@@ -62,15 +63,16 @@ void checkNames(const std::vector<sip::Recipe>& recipes, const ConfigFacts& fact
       throw InputError("recipe", "name", name,
                        "cannot be the name of a look: leave out , : | / \\ % $ + \" and a leading -");
     }
-    if (!given.insert(lowerCase(name)).second) {
+    if (!given.insert(spectral::lowerCase(name)).second) {
       throw InputError("recipe", "name", name, "is the name of another recipe too; give each its own");
     }
-    if (facts.looks.count(lowerCase(name)) != 0) {
+    if (facts.looks.count(spectral::lowerCase(name)) != 0) {
       throw InputError(where, "look", name, "is there already; rename the recipe, or take the look out of the base");
     }
     // OCIO keeps looks and named transforms apart from each other and from everything that is converted.
     for (const std::string& taken : {name, namedTransformName(name)}) {
-      if (facts.taken.count(lowerCase(taken)) != 0 || (taken != name && facts.looks.count(lowerCase(taken)) != 0)) {
+      if (facts.taken.count(spectral::lowerCase(taken)) != 0 ||
+          (taken != name && facts.looks.count(spectral::lowerCase(taken)) != 0)) {
         throw InputError(where, "name", taken,
                          "is that of a colour space, role, look or named transform of the config; rename the recipe");
       }
@@ -108,12 +110,12 @@ std::string familyOf(const sip::Recipe& recipe, const std::string& family, char 
     return text;
   };
   std::string kind = "Scene";
-  if (lowerCase(recipe.input.illuminant) != lowerCase(recipe.output.illuminant)) {
+  if (spectral::lowerCase(recipe.input.illuminant) != spectral::lowerCase(recipe.output.illuminant)) {
     const fs::path light(recipe.input.illuminant);
     kind = std::string("Light") + separator + (light.is_absolute() ? light.stem().string() : light.string());
   } else if (filters(recipe.input) != filters(recipe.output)) {
     kind = "Filter";
-  } else if (lowerCase(recipe.input.observer) != lowerCase(recipe.output.observer)) {
+  } else if (spectral::lowerCase(recipe.input.observer) != spectral::lowerCase(recipe.output.observer)) {
     kind = "Observer";
   }
   return family + separator + kind;
@@ -164,7 +166,7 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   checkNames(recipes, facts, where);
 
   // The places first: what cannot be written is not worth the work.
-  PendingFile config(file);
+  spectral::PendingFile config(file);
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
   const LutFolder lutFolder(folder / options.lutFolder);
   if (!options.base.empty()) {
@@ -175,7 +177,7 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   ConfigReport report;
   std::vector<ConfigItem> items;
   std::vector<ConfigItem> pendingItems;  // the same with the files' names of now, to be loaded
-  std::vector<std::unique_ptr<PendingFile>> pending;
+  std::vector<std::unique_ptr<spectral::PendingFile>> pending;
   for (const ConfigCore& core : coresOf(recipes, facts, library, where)) {
     const BakedCore baked = bakeCore(core, library, options.size, options.tolerance, lutFolder.path());
     const std::string lutName = fileName(core.name) + ".ctf";
@@ -184,7 +186,7 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
     if (!baked.lutText.empty()) {
       refuseForeign(lutFolder.path() / lutName, "metamer");
       refuseShadows(facts, place.prefix + lutName, options.lutFolder, file);
-      pending.push_back(std::make_unique<PendingFile>(lutFolder.path() / lutName));
+      pending.push_back(std::make_unique<spectral::PendingFile>(lutFolder.path() / lutName));
       pending.back()->write(baked.lutText);
       lutPath = pending.back()->path();
       pendingName = lutPath.filename().string();
@@ -215,7 +217,7 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
 
       const std::string jsonName = fileName(entry.name) + ".json";
       refuseForeign(lutFolder.path() / jsonName, "metamer_certificate");
-      pending.push_back(std::make_unique<PendingFile>(lutFolder.path() / jsonName));
+      pending.push_back(std::make_unique<spectral::PendingFile>(lutFolder.path() / jsonName));
       pending.back()->write(entry.certificate.json());
       report.entries.push_back(std::move(entry));
     }

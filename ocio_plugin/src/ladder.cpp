@@ -3,20 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
 
 constexpr std::array<int, 6> kSizes = {9, 17, 33, 49, 65, 97};
-
-std::string shortNumber(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
 
 }  // namespace
 
@@ -52,10 +46,10 @@ CertifiedChoice climb(const std::vector<Rung>& rungs, double tolerance,
   }
   const auto best = std::min_element(choice.tried.begin(), choice.tried.end(),
                                      [](const auto& a, const auto& b) { return a.p99 < b.p99; });
-  throw spectral::InputError("", "tolerance", shortNumber(tolerance),
+  throw spectral::InputError("", "tolerance", spectral::threeDigits(tolerance),
                              "nothing here holds it: the best, " + nameOf(best->representation) +
                                  (best->size > 0 ? " of " + std::to_string(best->size) + " nodes" : "") +
-                                 ", has a 99th percentile of " + shortNumber(best->p99) +
+                                 ", has a 99th percentile of " + spectral::threeDigits(best->p99) +
                                  "; allow more, fewer stops, a larger size, or write .ctf");
 }
 

@@ -2,13 +2,13 @@
 #include "metamer/ocio/lut_writer.h"
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 
 #include "baker_text.h"
 #include "cube_text.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
@@ -18,11 +18,6 @@ using Content = LutFormat::Content;
 
 /// Entries of a curve: a step of 12 bits each.
 constexpr int kCurveEntries = 4096;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 std::string allFormats() {
   std::string text;
@@ -108,9 +103,9 @@ const std::vector<LutFormat>& lutFormats() {
 
 const LutFormat& lutFormatNamed(const std::string& formatName) {
   const auto& formats = lutFormats();
-  const std::string wanted = lower(formatName);
+  const std::string wanted = spectral::lowerCase(formatName);
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const LutFormat& format) {
-    return lower(format.name) == wanted || format.extension == "." + wanted;
+    return spectral::lowerCase(format.name) == wanted || format.extension == "." + wanted;
   });
   if (found == formats.end()) {
     throw InputError("", "format", formatName, "unknown; the formats are " + allFormats());
@@ -119,7 +114,7 @@ const LutFormat& lutFormatNamed(const std::string& formatName) {
 }
 
 const LutFormat& lutFormat(const std::filesystem::path& file, const std::string& formatName) {
-  const std::string extension = lower(file.extension().string());
+  const std::string extension = spectral::lowerCase(file.extension().string());
   if (formatName.empty()) {
     const auto& formats = lutFormats();
     const auto found = std::find_if(formats.begin(), formats.end(),

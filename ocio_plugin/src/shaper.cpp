@@ -2,7 +2,6 @@
 #include "metamer/ocio/shaper.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
@@ -82,22 +82,15 @@ double halfValue(unsigned long bits) {
 }  // namespace
 
 spectral::LogEncoding shaperFromName(const std::string& name) {
-  const auto lower = [](std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-  };
   std::vector<std::string> names;
   for (const LogEncoding encoding : spectral::allLogEncodings()) {
     names.push_back(spectral::nameOf(encoding));
-    if (lower(names.back()) == lower(name)) {
+    if (spectral::lowerCase(names.back()) == spectral::lowerCase(name)) {
       return encoding;
     }
   }
-  std::string all;
-  for (const auto& known : names) {
-    all += (all.empty() ? "" : ", ") + known;
-  }
-  const std::string asked = lower(name);
+  const std::string all = spectral::joined(names);
+  const std::string asked = spectral::lowerCase(name);
   if (asked == "linear" || asked == "none" || asked == "raw") {
     throw spectral::InputError("", "shaper", name,
                                "is no logarithm: a table over linear light has no nodes in the dark and clips above 1; "

@@ -6,15 +6,16 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "config_base.h"
 #include "config_document.h"
 #include "config_facts.h"
 #include "config_items.h"
 #include "config_loader.h"
+#include "interchange.h"
 #include "metamer/spectral/chromatic_adaptation.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 #include "new_config.h"
 
 namespace metamer::ocio {
@@ -22,15 +23,7 @@ namespace {
 
 using spectral::InputError;
 
-constexpr const char* kInterchangeRole = "aces_interchange";
-constexpr const char* kInterchangeSpace = "ACES2065-1";
 constexpr const char* kFamily = "LED stage";
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), result.ptr};
-}
 
 /// Adapted, so that the camera's white is neutral.
 Eigen::Matrix3d acesFromCamera(const StageMatrices& stage, const spectral::DataLibrary& library) {
@@ -77,7 +70,8 @@ void emitRow(YAML::Emitter& yaml, const Eigen::Matrix3d& matrix) {
   yaml << YAML::Flow << YAML::BeginSeq;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) {
-      yaml << number(row < 3 && column < 3 ? matrix(row, column) : static_cast<double>(row == column));
+      yaml << spectral::shortestNumber(row < 3 && column < 3 ? matrix(row, column)
+                                                             : static_cast<double>(row == column));
     }
   }
   yaml << YAML::EndSeq;
@@ -87,8 +81,8 @@ void emitMatrix(YAML::Emitter& yaml, const Eigen::Matrix3d& matrix, const Eigen:
   yaml << YAML::VerbatimTag("MatrixTransform") << YAML::Flow << YAML::BeginMap << YAML::Key << "matrix" << YAML::Value;
   emitRow(yaml, matrix);
   if (!offset.isZero(0)) {
-    yaml << YAML::Key << "offset" << YAML::Value << YAML::Flow << YAML::BeginSeq << number(offset[0])
-         << number(offset[1]) << number(offset[2]) << "0" << YAML::EndSeq;
+    yaml << YAML::Key << "offset" << YAML::Value << YAML::Flow << YAML::BeginSeq << spectral::shortestNumber(offset[0])
+         << spectral::shortestNumber(offset[1]) << spectral::shortestNumber(offset[2]) << "0" << YAML::EndSeq;
   }
   yaml << YAML::EndMap;
 }
@@ -137,7 +131,7 @@ void check(const std::string& name, const ConfigFacts& facts, const std::string&
     throw InputError("stage", "name", name,
                      "cannot be part of a look's name: leave out , : | / \\ % $ + \" and a leading -");
   }
-  if (facts.taken.count(lowerCase(name)) != 0 || facts.looks.count(lowerCase(name)) != 0) {
+  if (facts.taken.count(spectral::lowerCase(name)) != 0 || facts.looks.count(spectral::lowerCase(name)) != 0) {
     throw InputError(where, "name", name, "is in the config already; give the stage another name");
   }
 }

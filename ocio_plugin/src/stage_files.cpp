@@ -2,12 +2,12 @@
 #include "metamer/ocio/stage_files.h"
 
 #include <array>
-#include <charconv>
 #include <memory>
 
 #include "matrix_operator.h"
 #include "metamer/ocio/lut_writer.h"
-#include "metamer/ocio/pending_file.h"
+#include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
@@ -30,19 +30,13 @@ OCIO::GroupTransformRcPtr wallTransform(const Eigen::Matrix3d& matrix, const Eig
   return group;
 }
 
-std::string number(double value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  return {digits.data(), end.ptr};
-}
-
 std::string spiMatrixText(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& offset) {
   std::string text;
   for (Eigen::Index row = 0; row < 3; ++row) {
     for (Eigen::Index column = 0; column < 3; ++column) {
-      text += number(matrix(row, column)) + " ";
+      text += spectral::shortestNumber(matrix(row, column)) + " ";
     }
-    text += number(kSpiMatrixScale * offset[row]) + "\n";
+    text += spectral::shortestNumber(kSpiMatrixScale * offset[row]) + "\n";
   }
   return text;
 }
@@ -79,9 +73,9 @@ std::vector<std::filesystem::path> writeStageFiles(const StageMatrices& stage, c
       Part{"_post_correction", "correction of the recorded picture, in camera RGB (Q)", postCorrectionTransform(stage),
            stage.correctedFromCamera, Eigen::Vector3d::Zero()},
   };
-  std::vector<std::unique_ptr<PendingFile>> pending;
+  std::vector<std::unique_ptr<spectral::PendingFile>> pending;
   const auto add = [&](const Part& part, const char* extension, const std::string& text) {
-    pending.push_back(std::make_unique<PendingFile>(prefix.string() + part.suffix + extension));
+    pending.push_back(std::make_unique<spectral::PendingFile>(prefix.string() + part.suffix + extension));
     pending.back()->write(text);
   };
   for (const Part& part : parts) {

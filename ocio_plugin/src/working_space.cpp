@@ -1,30 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/ocio/working_space.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
 
+#include "interchange.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
 
 using spectral::InputError;
-
-constexpr const char* kInterchangeRole = "aces_interchange";
-constexpr const char* kInterchangeSpace = "ACES2065-1";
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
 
 /// Whether a gain on the pixels is the same gain on the engine's.
 bool keepsGains(const PixelProcessor& toEngine) {
@@ -57,7 +49,7 @@ WorkingSpace configSpace(const std::string& name, const OCIO::ConstColorSpaceRcP
     throw InputError("$OCIO", "space", name, std::string("cannot be converted: ") + error.what());
   }
   working.isLinear = keepsGains(PixelProcessor(working.toEngine));
-  working.isLog = !working.isLinear && lower(space->getEncoding()) == "log";
+  working.isLog = !working.isLinear && spectral::lowerCase(space->getEncoding()) == "log";
   return working;
 }
 
@@ -81,7 +73,7 @@ WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibra
   std::vector<std::string> known;
   for (const auto& space : library.colourSpaces()) {
     known.push_back(space.name);
-    if (lower(space.name) == lower(name)) {
+    if (spectral::lowerCase(space.name) == spectral::lowerCase(name)) {
       WorkingSpace working;
       working.name = space.name;
       working.engine = space.linear;

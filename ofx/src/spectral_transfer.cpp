@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral_transfer.h"
 
-#include <charconv>
-
 #include "metamer/sip/recipe.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 #include "shared_cache.h"
 #include "spectral_pixels.h"
 #include "spectral_transfer_parameters.h"
@@ -17,12 +16,6 @@ using spectral::InputError;
 /// Engines kept beyond those in use: enough to go back and forth between settings, and to scrub an animated light.
 constexpr std::size_t kKeptEngines = 24;
 constexpr std::size_t kKeptTables = 16;
-
-std::string numberText(double value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value);
-  return {digits, end.ptr};
-}
 
 /// Reads one instance's parameters at one time as a recipe.
 class RecipeReader {
@@ -59,7 +52,7 @@ class RecipeReader {
     sip::RecipePipeline pipeline;
     pipeline.illuminant = m_values.menu(side + kIlluminant, m_time);
     if (pipeline.illuminant == kBlackbody || pipeline.illuminant == kDaylight) {
-      const std::string kelvin = numberText(m_values.number(side + kTemperature, m_time)) + " K";
+      const std::string kelvin = spectral::shortestNumber(m_values.number(side + kTemperature, m_time)) + " K";
       pipeline.illuminant = pipeline.illuminant == kBlackbody ? kelvin : "daylight " + kelvin;
     } else if (pipeline.illuminant == kFromFile) {
       pipeline.illuminant = file(side + kIlluminantFile, side + kIlluminant);

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::sip {
 namespace {
@@ -19,20 +20,6 @@ using spectral::InputError;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<const char*, 3> kChannels = {"R", "G", "B"};
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\f\v";
-  const auto first = text.find_first_not_of(kBlank);
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 /// Cells of a line; a quoted one may hold the delimiter, and a doubled quote for one.
 std::vector<std::string> cellsOf(std::string_view line, char delimiter) {
@@ -52,13 +39,13 @@ std::vector<std::string> cellsOf(std::string_view line, char delimiter) {
     }
   }
   for (std::string& cell : cells) {
-    cell = std::string(trimmed(cell));
+    cell = std::string(spectral::trimmed(cell));
   }
   return cells;
 }
 
 double numberOf(const std::string& cell, const std::string& where, const std::string& field) {
-  const std::string text = lower(cell);
+  const std::string text = spectral::lowerCase(cell);
   if (text.empty() || text == "nan" || text == "inf" || text == "+inf" || text == "-inf") {
     return kMissing;
   }
@@ -89,7 +76,8 @@ Columns readHeader(std::string_view line, const std::string& where) {
   }
   const std::vector<std::string> cells = cellsOf(line, columns.delimiter);
   const auto find = [&](const std::string& name) {
-    const auto found = std::find_if(cells.begin(), cells.end(), [&](const auto& cell) { return lower(cell) == name; });
+    const auto found =
+        std::find_if(cells.begin(), cells.end(), [&](const auto& cell) { return spectral::lowerCase(cell) == name; });
     if (found == cells.end()) {
       throw InputError(where, "header", std::string(line), "must be patch,R,G,B; the column " + name + " is missing");
     }
@@ -137,7 +125,7 @@ ChartTable parseChart(const std::string& text, const std::string& where) {
   while (!rest.empty()) {
     ++number;
     const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = trimmed(rest.substr(0, end));
+    const std::string_view line = spectral::trimmed(rest.substr(0, end));
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (line.empty() || line.front() == '#') {
       continue;

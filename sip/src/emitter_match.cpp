@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::sip {
 namespace {
@@ -38,9 +39,7 @@ double levelOf(const spectral::DomainSamples& target, const ObserverCurves& curv
 }  // namespace
 
 MatchMethod matchMethodFromName(const std::string& name) {
-  std::string lower = name;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = spectral::lowerCase(name);
   if (lower == "sim") {
     return MatchMethod::Spectral;
   }

@@ -2,13 +2,13 @@
 #include "metamer/sip/emitter_model.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::sip {
 namespace {
@@ -33,12 +33,6 @@ void check(const std::string& name, const char* field, double value, double low,
         name, field, std::to_string(value),
         "must be from " + std::to_string(static_cast<int>(low)) + " to " + std::to_string(static_cast<int>(high)));
   }
-}
-
-std::string numberText(double value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  return {digits.data(), end.ptr};
 }
 
 template <typename Shape>
@@ -72,26 +66,19 @@ std::vector<double> parametersOf(const std::string& text, std::size_t count, con
   return values;
 }
 
-bool isFile(const std::string& text) {
-  std::string extension = std::filesystem::path(text).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr std::array<const char*, 5> kExtensions = {".csv", ".txt", ".tsv", ".spdx", ".json"};
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
-
 }  // namespace
 
 Spectrum ledModel(double peakNm, double widthNm) {
-  const std::string name = "led:" + numberText(peakNm) + ":" + numberText(widthNm);
+  const std::string name = "led:" + spectral::shortestNumber(peakNm) + ":" + spectral::shortestNumber(widthNm);
   check(name, "peak", peakNm, kFirstNm, kLastNm);
   check(name, "width", widthNm, kSmallestWidthNm, kLargestWidthNm);
   return sampled(name, [&](double nm) { return ohno(nm, peakNm, widthNm); });
 }
 
 Spectrum phosphorModel(double pumpNm, double pumpWidthNm, double peakNm, double widthNm, double pumpShare) {
-  const std::string name = "phosphor:" + numberText(pumpNm) + ":" + numberText(pumpWidthNm) + ":" + numberText(peakNm) +
-                           ":" + numberText(widthNm) + ":" + numberText(pumpShare);
+  const std::string name = "phosphor:" + spectral::shortestNumber(pumpNm) + ":" +
+                           spectral::shortestNumber(pumpWidthNm) + ":" + spectral::shortestNumber(peakNm) + ":" +
+                           spectral::shortestNumber(widthNm) + ":" + spectral::shortestNumber(pumpShare);
   check(name, "pump", pumpNm, kFirstNm, kLastNm);
   check(name, "pump width", pumpWidthNm, kSmallestWidthNm, kLargestWidthNm);
   check(name, "peak", peakNm, kFirstNm, kLastNm);
@@ -121,7 +108,7 @@ std::vector<Emitter> emittersFrom(const std::string& text, const spectral::DataL
   if (auto model = emitterFromModel(text)) {
     return {*std::move(model)};
   }
-  if (!isFile(text)) {
+  if (!spectral::hasSpectralExtension(text)) {
     return {{library.illuminant(text, folder), false}};
   }
   const std::filesystem::path file(text);

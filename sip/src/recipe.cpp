@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/sip/recipe.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
 #include "yaml_section.h"
 
 namespace metamer::sip {
@@ -109,18 +109,12 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-std::string number(double value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value);
-  return {digits, end.ptr};
-}
-
 std::string toYaml(const RecipePipeline& pipeline) {
   std::string text = "{illuminant: " + quoted(pipeline.illuminant) + ", filters: [";
   for (std::size_t i = 0; i < pipeline.filters.size(); ++i) {
     const RecipeFilter& filter = pipeline.filters[i];
-    text += std::string(i == 0 ? "" : ", ") + "{name: " + quoted(filter.name) + ", density: " + number(filter.density) +
-            "}";
+    text += std::string(i == 0 ? "" : ", ") + "{name: " + quoted(filter.name) +
+            ", density: " + spectral::shortestNumber(filter.density) + "}";
   }
   return text + "], observer: " + quoted(pipeline.observer);
 }
@@ -213,7 +207,7 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
 std::string toYaml(const Recipe& recipe) {
   std::string text = "metamer: 1\nname: " + quoted(recipe.name) + "\nspace: " + quoted(recipe.space) +
                      "\ninput: " + toYaml(recipe.input) + "}\noutput: " + toYaml(recipe.output) +
-                     ", adaptation: " + number(recipe.adaptation) + "}\n";
+                     ", adaptation: " + spectral::shortestNumber(recipe.adaptation) + "}\n";
   switch (recipe.scene.kind) {
     case ReferenceScene::Kind::Smooth:
       text += "scene: {kind: smooth}\n";
@@ -222,8 +216,9 @@ std::string toYaml(const Recipe& recipe) {
       text += "scene: {kind: dataset, set: " + quoted(recipe.scene.set) + "}\n";
       break;
     case ReferenceScene::Kind::Prior:
-      text += "scene: {kind: prior, set: " + quoted(recipe.scene.set) + ", strength: " + number(recipe.scene.strength) +
-              ", radius: " + number(recipe.scene.radius) + "}\n";
+      text += "scene: {kind: prior, set: " + quoted(recipe.scene.set) +
+              ", strength: " + spectral::shortestNumber(recipe.scene.strength) +
+              ", radius: " + spectral::shortestNumber(recipe.scene.radius) + "}\n";
       break;
   }
   text += "cat: " + spectral::nameOf(recipe.cat) + "\n";

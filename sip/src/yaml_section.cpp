@@ -10,19 +10,12 @@
 #include <vector>
 
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::sip {
 namespace {
 
 using spectral::InputError;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : ", ") + word;
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -32,7 +25,7 @@ YamlSection::YamlSection(const YamlNode& node, std::string where, std::string pa
   const std::vector<std::string> known(keys.begin(), keys.end());
   if (node.kind != YamlNode::Kind::Map) {
     throw error(node, m_path.empty() ? document : m_path, node.text,
-                "must be a map of " + joined(known) +
+                "must be a map of " + spectral::joined(known) +
                     (m_path.empty() || document == "recipe"
                          ? ", such as '" + (document == "recipe" ? "metamer" : "metamer_" + document) + ": 1'"
                          : std::string()));
@@ -43,7 +36,7 @@ YamlSection::YamlSection(const YamlNode& node, std::string where, std::string pa
       const auto near = spectral::nearNames(key, known, 2);
       throw error(value, "key", named(key),
                   "unknown; " + (near.empty() ? std::string() : "did you mean '" + near.front() + "'? ") +
-                      "the keys here are " + joined(known));
+                      "the keys here are " + spectral::joined(known));
     }
     if (!seen.insert(key).second) {
       throw error(value, "key", named(key), "is given twice; keep one");

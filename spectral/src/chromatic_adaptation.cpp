@@ -8,7 +8,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
-#include "text.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
 namespace {

@@ -2,7 +2,6 @@
 #include "metamer/spectral/data_library.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <deque>
 #include <mutex>
@@ -17,7 +16,7 @@
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/platform.h"
 #include "metamer/spectral/spectral_files.h"
-#include "text.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
 namespace {
@@ -67,13 +66,6 @@ struct Place {
   const LoadedTable* table;
   std::size_t index;  ///< among the table's names
 };
-
-bool looksLikeFile(const std::string& name) {
-  constexpr std::array<std::string_view, 5> kExtensions{".csv", ".txt", ".tsv", ".spdx", ".json"};
-  const std::string extension = lowerCase(std::filesystem::path(name).extension().string());
-  return name.find_first_of("/\\") != std::string::npos ||
-         std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
 
 /// "3200 K" or "3200K" as 3200.
 std::optional<double> kelvin(std::string_view text) {
@@ -181,7 +173,7 @@ struct DataLibrary::State {
   /// The spectra of a file that the user named, or no value where the text names no file.
   std::optional<std::vector<Spectrum>> fromFile(const std::string& name, const std::filesystem::path& baseFolder,
                                                 SpectralQuantity quantity) const {
-    if (!looksLikeFile(name)) {
+    if (!looksLikeSpectralFile(name)) {
       return std::nullopt;
     }
     return readSpectralFile(baseFolder / name, quantity);
@@ -324,7 +316,7 @@ Provenance DataLibrary::provenance(const std::string& group, const std::string& 
   if (group == "illuminants" && daylightKelvin(nameOrFile)) {
     return ofTable(m_state->onlyTable("daylight_basis").description());
   }
-  if (looksLikeFile(nameOrFile)) {
+  if (looksLikeSpectralFile(nameOrFile)) {
     return {nameOrFile, nameOrFile, "", "", ""};
   }
   m_state->throwUnknown(group, nameOrFile);

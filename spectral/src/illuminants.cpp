@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 #include "planck.h"
-#include "text.h"
 
 namespace metamer::spectral {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/spectral/input_error.h"
 
-#include "text.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
-#include "text.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
 namespace {

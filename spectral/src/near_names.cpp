@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "text.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
 namespace {

@@ -73,4 +73,10 @@ void PendingFile::commit() {
   m_committed = true;
 }
 
+void writeWholeFile(const std::filesystem::path& target, std::string_view contents) {
+  PendingFile file(target);
+  file.write(contents);
+  file.commit();
+}
+
 }  // namespace metamer::spectral

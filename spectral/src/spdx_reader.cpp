@@ -6,8 +6,8 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
 #include "sampled_rows.h"
-#include "text.h"
 
 namespace metamer::spectral {
 namespace {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/spectral/spectral_files.h"
 
+#include <algorithm>
+#include <array>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 #include "metamer/spectral/input_error.h"
-#include "text.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
 
@@ -34,6 +37,15 @@ std::string readTextFile(const std::filesystem::path& file) {
     throw InputError(where, "", "", "cannot be read; check its permissions");
   }
   return text;
+}
+
+bool hasSpectralExtension(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 5> kExtensions{".csv", ".txt", ".tsv", ".spdx", ".json"};
+  return std::find(kExtensions.begin(), kExtensions.end(), lowerCase(file.extension().string())) != kExtensions.end();
+}
+
+bool looksLikeSpectralFile(const std::string& nameOrFile) {
+  return nameOrFile.find_first_of("/\\") != std::string::npos || hasSpectralExtension(nameOrFile);
 }
 
 std::vector<Spectrum> readSpectralFile(const std::filesystem::path& file, SpectralQuantity quantity) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "metamer/spectral/input_error.h"
-#include "text.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "text.h"
+#include "metamer/spectral/text.h"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <system_error>
 
@@ -91,6 +92,26 @@ std::string shortened(const std::string& text, std::size_t most) {
     --end;
   }
   return text.substr(0, end).append(kMark);
+}
+
+std::string shortestNumber(double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  return {digits.data(), end.ptr};
+}
+
+std::string threeDigits(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  return text;
 }
 
 std::string numberText(double value) {

@@ -36,9 +36,7 @@ void writeCheckpoint(const std::vector<unsigned char>& state, const std::filesys
   const std::uint64_t sum = checkSum(bytes, bytes.size());
   const auto* sumBytes = reinterpret_cast<const unsigned char*>(&sum);
   bytes.insert(bytes.end(), sumBytes, sumBytes + sizeof sum);
-  spectral::PendingFile pending(file);
-  pending.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  pending.commit();
+  spectral::writeWholeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 std::vector<unsigned char> readCheckpoint(const std::filesystem::path& file) {

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -24,28 +25,14 @@ bool wholeNumber(const std::string& text, double& value) {
   return parsed.ec == std::errc() && parsed.ptr == end && std::isfinite(value);
 }
 
-std::string shortNumber(double value) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, value);
-  return {digits, end.ptr};
-}
-
 std::string rangeText(double low, double high) {
   if (low == -YamlValue::kAny && high == YamlValue::kAny) {
     return "must be a finite number";
   }
   if (high == YamlValue::kAny) {
-    return "must be a finite number, " + shortNumber(low) + " or more";
+    return "must be a finite number, " + spectral::shortestNumber(low) + " or more";
   }
-  return "must be a number from " + shortNumber(low) + " to " + shortNumber(high);
-}
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : ", ") + word;
-  }
-  return text;
+  return "must be a number from " + spectral::shortestNumber(low) + " to " + spectral::shortestNumber(high);
 }
 
 }  // namespace
@@ -122,7 +109,7 @@ Vector3 YamlValue::vector() const {
 YamlSection::YamlSection(const YamlValue& value, std::initializer_list<const char*> keys) : YamlValue(value) {
   const std::vector<std::string> known(keys.begin(), keys.end());
   if (!m_node.IsMap()) {
-    throw error("must be a map of " + joined(known));
+    throw error("must be a map of " + spectral::joined(known));
   }
   for (const auto& member : m_node) {
     const YamlValue key(member.first, m_where, m_field.empty() ? "key" : m_field);
@@ -130,7 +117,7 @@ YamlSection::YamlSection(const YamlValue& value, std::initializer_list<const cha
     if (std::find(known.begin(), known.end(), name) == known.end() && !known.empty()) {
       const auto near = spectral::nearNames(name, known, 1);
       throw key.error("unknown; " + (near.empty() ? std::string() : "did you mean '" + near.front() + "'? ") +
-                      "the keys here are " + joined(known));
+                      "the keys here are " + spectral::joined(known));
     }
     if (std::find(m_keys.begin(), m_keys.end(), name) != m_keys.end()) {
       throw key.error("is given twice; keep one");

@@ -8,7 +8,7 @@
 
 #include "metamer/ocio/pixel_processor.h"
 #include "sip/sip_fixture.h"
-#include "temporary_folder.h"
+#include "spectral/temporary_folder.h"
 
 namespace metamer::ocio {
 namespace {

@@ -10,7 +10,7 @@
 #include "metamer/ocio/compared_transform.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "spectral/fixture.h"
-#include "temporary_folder.h"
+#include "spectral/temporary_folder.h"
 
 namespace metamer::ocio {
 namespace {

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <set>
 
-#include "metamer/ocio/pending_file.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/representation.h"
 #include "metamer/ocio/shaper.h"
+#include "metamer/spectral/pending_file.h"
 #include "sip/sip_fixture.h"
-#include "temporary_folder.h"
+#include "spectral/temporary_folder.h"
 
 namespace metamer::ocio {
 namespace {
@@ -73,7 +73,7 @@ TEST_P(LutWriterTest, ReadsBackAsWhatWasWritten) {
   const TemporaryFolder folder;
   const auto file = folder / ("lut" + format().extension);
   const LutDescription description{"name with \"quotes\" & <tags>", "id-1", {"first line", "second <line> & more"}};
-  PendingFile pending(file);
+  spectral::PendingFile pending(file);
   pending.write(lutText(format(), group(), kSize, description));
   pending.commit();
   // The integers of .3dl end at 0 and 1, where a fitted table stays but near white; spi1d is asked where its curve is.

@@ -32,4 +32,7 @@ class PendingFile {
   bool m_committed = false;
 };
 
+/// Writes a file that appears whole or not at all. @throws InputError as PendingFile
+void writeWholeFile(const std::filesystem::path& target, std::string_view contents);
+
 }  // namespace metamer::spectral

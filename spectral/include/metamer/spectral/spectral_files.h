@@ -13,6 +13,12 @@ namespace metamer::spectral {
 /// Largest file any reader takes, bytes; larger ones are refused by name and size.
 inline constexpr std::uintmax_t kLargestFileBytes = 64u << 20;
 
+/// Whether a file's extension is one that readSpectralFile takes, in any case of letters.
+bool hasSpectralExtension(const std::filesystem::path& file);
+
+/// Whether a text given where a name or a file may stand is a file: it has a path separator or such an extension.
+bool looksLikeSpectralFile(const std::string& nameOrFile);
+
 /// Reads the spectra of a file, one a data column, by its extension:
 ///   .csv .txt .tsv  wavelength and one or more values a row; see readCsv
 ///   .spdx           IES TM-27-14 XML

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "metamer/ocio/pending_file.h"
+#include "metamer/spectral/pending_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include "spectral/fixture.h"
-#include "temporary_folder.h"
+#include "spectral/temporary_folder.h"
 
-namespace metamer::ocio {
+namespace metamer::spectral {
 namespace {
 
 TEST(PendingFileTest, AppearsOnCommitAlone) {
@@ -28,13 +28,12 @@ TEST(PendingFileTest, AppearsOnCommitAlone) {
 
 TEST(PendingFileTest, RefusesPlacesThatCannotBeWritten) {
   const TemporaryFolder folder;
-  EXPECT_NE(spectral::errorOf([&] { PendingFile file(folder / "no/such/out.cube"); }).find("cannot be written"),
+  EXPECT_NE(errorOf([&] { PendingFile file(folder / "no/such/out.cube"); }).find("cannot be written"),
             std::string::npos);
-  EXPECT_NE(spectral::errorOf([&] { PendingFile file(folder.path()); }).find("is a folder"), std::string::npos);
+  EXPECT_NE(errorOf([&] { PendingFile file(folder.path()); }).find("is a folder"), std::string::npos);
   if (geteuid() != 0) {
     std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read);
-    EXPECT_NE(spectral::errorOf([&] { PendingFile file(folder / "out.cube"); }).find("cannot be written"),
-              std::string::npos);
+    EXPECT_NE(errorOf([&] { PendingFile file(folder / "out.cube"); }).find("cannot be written"), std::string::npos);
   }
 }
 
@@ -48,10 +47,10 @@ TEST(PendingFileTest, AFullDiskLeavesNothingBehind) {
     PendingFile file(folder / "out.cube");
     std::filesystem::remove(file.path());
     std::filesystem::create_symlink("/dev/full", file.path());
-    EXPECT_NE(spectral::errorOf([&] { file.write(std::string(100000, 'x')); }).find("make room"), std::string::npos);
+    EXPECT_NE(errorOf([&] { file.write(std::string(100000, 'x')); }).find("make room"), std::string::npos);
   }
   EXPECT_TRUE(folder.isEmpty());
 }
 
 }  // namespace
-}  // namespace metamer::ocio
+}  // namespace metamer::spectral

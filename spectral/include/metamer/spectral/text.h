@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace metamer::spectral {
 
@@ -19,8 +20,17 @@ std::string oneLine(std::string_view text);
 /// At most `most` bytes, cut between characters and marked with "..." where cut.
 std::string shortened(const std::string& text, std::size_t most);
 
-/// Shortest decimal form that reads back as the same number.
+/// The shorter of decimal and exponent form that reads back as the same number: for files.
+std::string shortestNumber(double value);
+
+/// Shortest decimal form that reads back as the same number, without an exponent for ordinary sizes: for messages.
 std::string numberText(double value);
+
+/// Three significant digits: for figures and messages.
+std::string threeDigits(double value);
+
+/// With a comma and a space between.
+std::string joined(const std::vector<std::string>& words);
 
 /// A whole token as a number in decimal notation, independent of the locale. Empty where the token is anything else:
 /// text after the number, hexadecimal, "nan", "inf", out of the range of double.

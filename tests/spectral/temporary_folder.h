@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace metamer::ocio {
+namespace metamer {
 
 /// A folder of its own for each test, removed after it.
 class TemporaryFolder {
@@ -40,4 +40,4 @@ inline std::string contentsOf(const std::filesystem::path& file) {
   return text.str();
 }
 
-}  // namespace metamer::ocio
+}  // namespace metamer
