@@ -208,6 +208,8 @@ class Regeneration(unittest.TestCase):
 
     def test_other_version_is_refused(self) -> None:
         """Another version of a package is refused in one clear line."""
+        sys.path.insert(0, str(SCRIPT.parent))
+        self.addCleanup(sys.path.remove, str(SCRIPT.parent))
         spec = importlib.util.spec_from_file_location("export_data", SCRIPT)
         module = importlib.util.module_from_spec(spec)
         sys.modules["export_data"] = module
