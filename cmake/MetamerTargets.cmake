@@ -17,6 +17,12 @@ if(METAMER_SANITIZERS)
   target_link_options(metamer_build_flags INTERFACE -fsanitize=${METAMER_SANITIZERS})
 endif()
 
+option(METAMER_COVERAGE "Count what runs (clang only): script/test --coverage" OFF)
+if(METAMER_COVERAGE)
+  target_compile_options(metamer_build_flags INTERFACE -fprofile-instr-generate -fcoverage-mapping)
+  target_link_options(metamer_build_flags INTERFACE -fprofile-instr-generate)
+endif()
+
 # metamer_library(<folder> SOURCES ... [PUBLIC targets...] [PRIVATE targets...])
 # The library of one folder: headers in <folder>/include, sources in <folder>/src, alias metamer::<folder>.
 function(metamer_library folder)
