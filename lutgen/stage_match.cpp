@@ -62,6 +62,10 @@ sip::MatchWeights weightsOf(const MatchOptions& options) {
   return options.weights == "relative" ? sip::MatchWeights::Relative : sip::MatchWeights::Absolute;
 }
 
+bool isPerceptual(sip::MatchMethod method, const MatchOptions& options) {
+  return method == sip::MatchMethod::MetamericReflectance && options.weights == "perceptual";
+}
+
 sip::MatchSystem systemOf(sip::MatchMethod method, const MatchOptions& options, const Fixture& fixture,
                           const spectral::DomainSamples& target, const sip::ObserverCurves& curves,
                           const Materials& materials) {
@@ -89,15 +93,22 @@ MatchOutcome matchSpectra(const MatchOptions& options, const spectral::DataLibra
   outcome.emitters = fixture.names;
   outcome.models = fixture.models;
   outcome.notes = fixture.notes;
-  outcome.match =
-      sip::solveMatch(systemOf(sip::matchMethodFromName(options.method), options, fixture, light, curves, materials),
-                      limitsOf(options.limits, fixture.names.size()));
+  outcome.xyzFromResponse = xyzFromResponseUnder(target, observer, library);
+  outcome.white = curves.transpose() * light;
+  const sip::MatchMethod method = sip::matchMethodFromName(options.method);
+  const sip::MatchSystem system = systemOf(method, options, fixture, light, curves, materials);
+  const sip::DriveLimits limits = limitsOf(options.limits, fixture.names.size());
+  if (isPerceptual(method, options)) {
+    const auto illuminant = sip::solveMatch(sip::illuminantSystem(fixture.columns, light, curves), limits);
+    const Eigen::Vector3d white = outcome.white / outcome.white[1];
+    outcome.match = sip::solvePerceptualMatch(system, {outcome.xyzFromResponse, white}, {illuminant.drives}, limits);
+  } else {
+    outcome.match = sip::solveMatch(system, limits);
+  }
   const spectral::DomainSamples mixed = fixture.columns * outcome.match.drives;
   outcome.patches = materials.names;
   outcome.wanted = chartUnder(light, curves, materials);
   outcome.made = chartUnder(mixed, curves, materials);
-  outcome.xyzFromResponse = xyzFromResponseUnder(target, observer, library);
-  outcome.white = curves.transpose() * light;
   if (mixed.maxCoeff() > 0) {
     outcome.spectralSimilarity = spectral::spectralSimilarityIndex(lightOf(mixed), target);
   }
@@ -131,25 +142,31 @@ MatchOutcome matchCharts(const MatchOptions& options, const spectral::DataLibrar
   outcome.wanted.row(1).maxCoeff(&brightest);
   const int white = patchNamed(aligned.names, "white");
   const Eigen::Index whitePatch = white >= 0 ? white : brightest;
-  sip::MatchSystem system;
-  if (method == sip::MatchMethod::MetamericIlluminant) {
+  outcome.xyzFromResponse = library.colourSpace(options.colourSpace).linear.xyzFromRgb();
+  outcome.white = outcome.wanted.col(whitePatch);
+  const sip::DriveLimits limits = limitsOf(options.limits, options.charts.size());
+  const auto illuminantMatch = [&] {
     std::vector<Eigen::Matrix3Xd> whites;
     for (const Eigen::Matrix3Xd& chart : aligned.charts) {
       whites.emplace_back(chart.col(whitePatch));
     }
-    system = sip::chartSystem(whites, outcome.wanted.col(whitePatch));
+    return sip::solveMatch(sip::chartSystem(whites, outcome.wanted.col(whitePatch)), limits);
+  };
+  if (method == sip::MatchMethod::MetamericIlluminant) {
+    outcome.match = illuminantMatch();
   } else {
-    system = sip::chartSystem(aligned.charts, outcome.wanted, weightsOf(options));
+    const auto system = sip::chartSystem(aligned.charts, outcome.wanted, weightsOf(options));
+    outcome.match = isPerceptual(method, options)
+                        ? sip::solvePerceptualMatch(system, {outcome.xyzFromResponse, outcome.white},
+                                                    {illuminantMatch().drives}, limits)
+                        : sip::solveMatch(system, limits);
   }
-  outcome.match = sip::solveMatch(system, limitsOf(options.limits, options.charts.size()));
   outcome.made = Eigen::Matrix3Xd::Zero(3, outcome.wanted.cols());
   for (std::size_t k = 0; k < aligned.charts.size(); ++k) {
     outcome.made += outcome.match.drives[static_cast<Eigen::Index>(k)] * aligned.charts[k];
   }
   outcome.observer = "camera RGB taken for " + options.colourSpace;
   outcome.reflectances = "charts";
-  outcome.xyzFromResponse = library.colourSpace(options.colourSpace).linear.xyzFromRgb();
-  outcome.white = outcome.wanted.col(whitePatch);
   return outcome;
 }
 
@@ -192,8 +209,11 @@ void addStageMatch(CLI::App& stage) {
       ->check(CLI::IsMember({"sim", "mim", "mrm"}, CLI::ignore_case));
   command->add_option("--reflectances", options->reflectances, "Materials: SET or FILE; colorchecker by default");
   command->add_option("--observer", options->observer, "Eye or camera: NAME or FILE; CIE 1931 2 by default");
-  command->add_option("--weights", options->weights, "Differences of mrm: absolute, or relative to the target's values")
-      ->check(CLI::IsMember({"absolute", "relative"}));
+  command
+      ->add_option("--weights", options->weights,
+                   "Differences of mrm: absolute (the default), relative to the target's values, or perceptual, by "
+                   "mean CIEDE2000")
+      ->check(CLI::IsMember({"absolute", "relative", "perceptual"}));
   command->add_option("--colour-space", options->colourSpace,
                       "With --charts: what the camera's RGB is, for colour differences; ACEScg by default");
   command->add_option("--report", options->report, "Markdown to write, for people");

@@ -44,6 +44,62 @@ double chromaWeight(double chroma) {
   return std::sqrt(pow7(chroma) / (pow7(chroma) + pow7(25.0)));
 }
 
+struct Terms2000 {
+  double lightness;
+  double chroma;
+  double hue;
+  double rotation;           ///< the cross term of chroma and hue, -2 ... 2
+  Eigen::Vector2d midpoint;  ///< a' and b, twice those between the two colours
+};
+
+/// The parts of CIEDE2000 from lab1 to lab2, each over its own tolerance.
+Terms2000 terms2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) {
+  // Sharma, Wu and Dalal 2005, equations 2 to 22.
+  const double meanChroma = (std::hypot(lab1[1], lab1[2]) + std::hypot(lab2[1], lab2[2])) / 2.0;
+  const double stretch = 1.0 + 0.5 * (1.0 - chromaWeight(meanChroma));
+  const double a1 = stretch * lab1[1];
+  const double a2 = stretch * lab2[1];
+  const double c1 = std::hypot(a1, lab1[2]);
+  const double c2 = std::hypot(a2, lab2[2]);
+  const double h1 = hueDegrees(a1, lab1[2]);
+  const double h2 = hueDegrees(a2, lab2[2]);
+
+  const bool neutral = c1 * c2 == 0;
+  // Exactly opposite hues count as 180 degrees apart whatever way the last bit of the two arc tangents fell: the
+  // formula is discontinuous there.
+  const bool opposite = a1 * lab2[2] == a2 * lab1[2];
+  const bool throughZero = std::abs(h1 - h2) > 180 && !opposite;
+  double hueStep = neutral ? 0 : h2 - h1;
+  if (throughZero) {
+    hueStep += hueStep > 0 ? -360 : 360;
+  }
+  const double lightnessDifference = lab2[0] - lab1[0];
+  const double chromaDifference = c2 - c1;
+  const double hueDifference = 2.0 * std::sqrt(c1 * c2) * std::sin(radians(hueStep / 2.0));
+
+  const double meanLightness = (lab1[0] + lab2[0]) / 2.0;
+  const double meanPrimeChroma = (c1 + c2) / 2.0;
+  double meanHue = h1 + h2;
+  if (!neutral) {
+    if (throughZero) {
+      meanHue += meanHue < 360 ? 360 : -360;
+    }
+    meanHue /= 2;
+  }
+
+  const double t = 1.0 - 0.17 * std::cos(radians(meanHue - 30.0)) + 0.24 * std::cos(radians(2.0 * meanHue)) +
+                   0.32 * std::cos(radians(3.0 * meanHue + 6.0)) - 0.20 * std::cos(radians(4.0 * meanHue - 63.0));
+  const double blueness = (meanHue - 275.0) / 25.0;
+  const double rotation = 30.0 * std::exp(-blueness * blueness);
+  const double lightnessOffset = (meanLightness - 50.0) * (meanLightness - 50.0);
+  const double sL = 1.0 + 0.015 * lightnessOffset / std::sqrt(20.0 + lightnessOffset);
+  const double sC = 1.0 + 0.045 * meanPrimeChroma;
+  const double sH = 1.0 + 0.015 * meanPrimeChroma * t;
+  const double rT = -std::sin(radians(2.0 * rotation)) * 2.0 * chromaWeight(meanPrimeChroma);
+
+  return {lightnessDifference / sL, chromaDifference / sC, hueDifference / sH, rT, {a1 + a2, lab1[2] + lab2[2]}};
+}
+
 }  // namespace
 
 Eigen::Vector3d response(const Spectrum& power, const Observer& observer) {
@@ -90,54 +146,21 @@ Eigen::Vector3d lab(const Eigen::Vector3d& xyz, const Eigen::Vector3d& white) {
 }
 
 double deltaE2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) {
-  // Sharma, Wu and Dalal 2005, equations 2 to 22.
-  const double meanChroma = (std::hypot(lab1[1], lab1[2]) + std::hypot(lab2[1], lab2[2])) / 2.0;
-  const double stretch = 1.0 + 0.5 * (1.0 - chromaWeight(meanChroma));
-  const double a1 = stretch * lab1[1];
-  const double a2 = stretch * lab2[1];
-  const double c1 = std::hypot(a1, lab1[2]);
-  const double c2 = std::hypot(a2, lab2[2]);
-  const double h1 = hueDegrees(a1, lab1[2]);
-  const double h2 = hueDegrees(a2, lab2[2]);
-
-  const bool neutral = c1 * c2 == 0;
-  // Exactly opposite hues count as 180 degrees apart whatever way the last bit of the two arc tangents fell: the
-  // formula is discontinuous there.
-  const bool opposite = a1 * lab2[2] == a2 * lab1[2];
-  const bool throughZero = std::abs(h1 - h2) > 180 && !opposite;
-  double hueStep = neutral ? 0 : h2 - h1;
-  if (throughZero) {
-    hueStep += hueStep > 0 ? -360 : 360;
-  }
-  const double lightnessDifference = lab2[0] - lab1[0];
-  const double chromaDifference = c2 - c1;
-  const double hueDifference = 2.0 * std::sqrt(c1 * c2) * std::sin(radians(hueStep / 2.0));
-
-  const double meanLightness = (lab1[0] + lab2[0]) / 2.0;
-  const double meanPrimeChroma = (c1 + c2) / 2.0;
-  double meanHue = h1 + h2;
-  if (!neutral) {
-    if (throughZero) {
-      meanHue += meanHue < 360 ? 360 : -360;
-    }
-    meanHue /= 2;
-  }
-
-  const double t = 1.0 - 0.17 * std::cos(radians(meanHue - 30.0)) + 0.24 * std::cos(radians(2.0 * meanHue)) +
-                   0.32 * std::cos(radians(3.0 * meanHue + 6.0)) - 0.20 * std::cos(radians(4.0 * meanHue - 63.0));
-  const double blueness = (meanHue - 275.0) / 25.0;
-  const double rotation = 30.0 * std::exp(-blueness * blueness);
-  const double lightnessOffset = (meanLightness - 50.0) * (meanLightness - 50.0);
-  const double sL = 1.0 + 0.015 * lightnessOffset / std::sqrt(20.0 + lightnessOffset);
-  const double sC = 1.0 + 0.045 * meanPrimeChroma;
-  const double sH = 1.0 + 0.015 * meanPrimeChroma * t;
-  const double rT = -std::sin(radians(2.0 * rotation)) * 2.0 * chromaWeight(meanPrimeChroma);
-
-  const double l = lightnessDifference / sL;
-  const double c = chromaDifference / sC;
-  const double h = hueDifference / sH;
+  const auto [l, c, h, rotation, midpoint] = terms2000(lab1, lab2);
   // The rotation term can outweigh the squares by a rounding error between equal colours.
-  return std::sqrt(std::max(0.0, l * l + c * c + h * h + rT * c * h));
+  return std::sqrt(std::max(0.0, l * l + c * c + h * h + rotation * c * h));
+}
+
+Eigen::Vector3d difference2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) {
+  const Terms2000 terms = terms2000(lab1, lab2);
+  // The square completed: c^2 + h^2 + r c h = (c + r h / 2)^2 + (1 - r^2 / 4) h^2, where |r| < 2.
+  const double along = terms.chroma + 0.5 * terms.rotation * terms.hue;
+  const double across = std::sqrt(1.0 - 0.25 * terms.rotation * terms.rotation) * terms.hue;
+  // Turned from chroma and hue to a and b by the hue of the midpoint: of a grey and a colour that is the colour's,
+  // where the formula's own mean hue hangs on the grey's last bits.
+  const double hue = radians(hueDegrees(terms.midpoint[0], terms.midpoint[1]));
+  return {terms.lightness, std::cos(hue) * along - std::sin(hue) * across,
+          std::sin(hue) * along + std::cos(hue) * across};
 }
 
 }  // namespace metamer::spectral

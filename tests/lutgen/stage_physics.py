@@ -55,6 +55,7 @@ LIGHTS = {
     "A": ("illuminants/cie_standard.csv", "A"),
     "D65": ("illuminants/cie_standard.csv", "D65"),
     "FL2": ("illuminants/cie_fl.csv", "FL2"),
+    "FL11": ("illuminants/cie_fl.csv", "FL11"),
     "LED-B1": ("illuminants/cie_led.csv", "LED-B1"),
     "HP1": ("illuminants/cie_hp.csv", "HP1"),
     "LED-RGB1": ("illuminants/cie_led.csv", "LED-RGB1"),

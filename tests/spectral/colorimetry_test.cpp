@@ -102,6 +102,29 @@ TEST(ColorimetryTest, DeltaE2000OfOppositeHuesDoesNotHangOnTheLastBit) {
   }
 }
 
+TEST(ColorimetryTest, Difference2000HasTheLengthOfDeltaE2000) {
+  // A few square roots and one turn: rounding of differences up to 100.
+  MaxDifference difference("difference2000", 1e-12);
+  for (const char* name : {"delta_e_2000.csv", "sharma_2005.csv"}) {
+    for (const FixtureRow& row : readFixture(name)) {
+      difference.add(difference2000(row.vector(0), row.vector(3)).norm(), deltaE2000(row.vector(0), row.vector(3)));
+    }
+  }
+}
+
+TEST(ColorimetryTest, Difference2000IsSmoothAboutNeutral) {
+  // Round a neutral target the chroma alone has a kink, and the hue turns; the vector goes by a and b.
+  for (const Eigen::Vector3d& target : {Eigen::Vector3d(50, 0, 0), Eigen::Vector3d(50, 1e-9, -1e-9)}) {
+    const Eigen::Vector3d right = difference2000(target, {50, 1e-4, 0});
+    const Eigen::Vector3d left = difference2000(target, {50, -1e-4, 0});
+    const Eigen::Vector3d up = difference2000(target, {50, 0, 1e-4});
+    // The formula's own hue difference, 2 sqrt(C1 C2), is 8e-7 here; a kink would be as large as the difference itself.
+    EXPECT_LT((right + left).norm(), 2e-6);
+    EXPECT_NEAR(right[1], 1.5e-4, 1e-6);  // a is stretched by half where there is no chroma
+    EXPECT_NEAR(up[2], 1e-4, 1e-6);
+  }
+}
+
 TEST(ColorimetryTest, DeltaE2000OfEqualColoursIsZero) {
   EXPECT_EQ(deltaE2000({50, 20, -30}, {50, 20, -30}), 0);
   EXPECT_EQ(deltaE2000({0, 0, 0}, {0, 0, 0}), 0);

@@ -21,7 +21,7 @@ enum class MatchMethod {
 /// "sim", "mim", "mrm". @throws spectral::InputError for any other
 MatchMethod matchMethodFromName(const std::string& name);
 
-/// How differences of MRM count.
+/// How differences of MRM count in a linear system; solvePerceptualMatch counts them as they are seen.
 enum class MatchWeights {
   Absolute,  ///< squared tristimulus differences
   Relative,  ///< divided by the target's value (Wenger et al. 2003)
@@ -67,5 +67,23 @@ struct EmitterMatch {
 /// Non-negative least squares, within limits where given; of equally good drives the shortest (minimum norm).
 /// @throws spectral::InputError: no emitter, more than 64, a target of nothing, no emitter with any light
 EmitterMatch solveMatch(const MatchSystem& system, const DriveLimits& limits = {});
+
+/// What an observer's responses look like.
+struct SeenResponses {
+  Eigen::Matrix3d xyzFromResponse;  ///< any scale
+  Eigen::Vector3d white;            ///< the response to what counts as white (L* = 100), in the system's scale
+};
+
+/// MRM by what is seen: the least mean CIEDE2000 over the patches, where squared tristimulus differences let a shift of
+/// all greys buy a bright patch. Gauss-Newton steps by non-negative least squares, reweighted to the mean (iteratively
+/// reweighted least squares), from the least-squares match and from each of `starts`; the best end is taken, so the
+/// mean is never above that of any start. The objective is not convex: a local minimum.
+///
+/// `residualNorm`, `relativeResidual`, `rank` and `condition` are of the system, as of solveMatch.
+/// @param system   three rows a patch, with absolute weights
+/// @param starts   other drives to set out from, such as MIM's; those beyond the limits are left out
+/// @throws spectral::InputError as solveMatch, and where white has no luminance
+EmitterMatch solvePerceptualMatch(const MatchSystem& system, const SeenResponses& seen,
+                                  const std::vector<Eigen::VectorXd>& starts, const DriveLimits& limits = {});
 
 }  // namespace metamer::sip

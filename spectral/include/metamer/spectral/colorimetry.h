@@ -31,4 +31,8 @@ Eigen::Vector3d lab(const Eigen::Vector3d& xyz, const Eigen::Vector3d& white);
 /// CIEDE2000 colour difference (CIE 142-2001; Sharma, Wu and Dalal 2005), kL = kC = kH = 1.
 double deltaE2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2);
 
+/// CIEDE2000 as a vector from one colour to the other, whose length it is: lightness, and the differences of chroma
+/// and hue turned to a and b, so that it is smooth about grey. For least squares.
+Eigen::Vector3d difference2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2);
+
 }  // namespace metamer::spectral
