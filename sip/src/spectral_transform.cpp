@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "metamer/sip/band_weights.h"
 #include "metamer/sip/feasible_cone.h"
 #include "metamer/spectral/input_error.h"
 #include "reference_scenes.h"
@@ -26,7 +27,7 @@ constexpr double kRankTolerance = 0.05;
 /// A channel whose white is this much darker than the brightest one's is dark.
 constexpr double kDarkChannel = 1e-12;
 
-/// Of a band's sensitivity over the observer's best: below it, a wavelength is at the end of the observer's range.
+/// Of a camera's sensitivity over its best: where it is below, its range ends.
 constexpr double kFaintest = 1e-2;
 
 /// Step of the differences that linearise a transform with a prior, relative to the colour: far below the width of
@@ -48,20 +49,29 @@ Eigen::Matrix3Xd signalBasis(const Eigen::Matrix3Xd& weights, double& conditionN
   return svd.matrixU().leftCols(rank);
 }
 
-/// The weights of the bands that the observer sees at least kFaintest as well as its best. At the ends of a camera's
-/// range its channels are noise, whose ratios would widen the cone by colours that take reflectances of thousands.
-Eigen::Matrix3Xd clearlySeen(const Eigen::Matrix3Xd& weights,
+/// The weights of the bands within a camera's range. Beyond, its channels are noise, whose ratios would widen the cone
+/// by colours that take reflectances of thousands. The range comes from the integration domain, whatever the bands.
+Eigen::Matrix3Xd withinRange(const Eigen::Matrix3Xd& weights,
                              const Eigen::Matrix<double, spectral::kDomainSize, 3>& curves) {
-  const int bandCount = static_cast<int>(weights.cols());
-  const Eigen::RowVectorXd sensitivity =
-      bandWeights(spectral::DomainSamples::Ones(), curves, bandCount).cwiseAbs().colwise().sum();
-  std::vector<Eigen::Index> seen;
-  for (Eigen::Index b = 0; b < weights.cols(); ++b) {
-    if (sensitivity[b] >= kFaintest * sensitivity.maxCoeff()) {
-      seen.push_back(b);
+  const Eigen::ArrayXd sensitivity = curves.cwiseAbs().rowwise().sum();
+  const double least = kFaintest * sensitivity.maxCoeff();
+  int first = 0;
+  while (sensitivity[first] < least) {
+    ++first;
+  }
+  int last = spectral::kDomainSize - 1;
+  while (sensitivity[last] < least) {
+    --last;
+  }
+  const auto bandCount = static_cast<int>(weights.cols());
+  std::vector<int> within;
+  for (int band = 0; band < bandCount; ++band) {
+    const double sample = bandCentreNm(band, bandCount) - spectral::kDomainStartNm;
+    if (sample >= first && sample <= last) {
+      within.push_back(band);
     }
   }
-  return weights(Eigen::all, seen);
+  return weights(Eigen::all, within);
 }
 
 /// Scales by a power of two so that the largest component lies in [0.5, 1): the result of a colour and of the same
@@ -198,7 +208,8 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   Eigen::Matrix3Xd rows = Eigen::Matrix3Xd::Zero(3, bandCount);
   rows.topRows(state->basis.cols()) = state->basis.transpose() * weights;
   state->solver.emplace(rows);
-  state->cone.emplace(clearlySeen(weights, input.curves), state->basis);
+  const bool isCamera = spec.input.observer.response == spectral::Observer::Response::Camera;
+  state->cone.emplace(isCamera ? withinRange(weights, input.curves) : weights, state->basis);
 
   const Eigen::Matrix3d matrix = state->rgbFromSpectrum * state->onResponse(state->solver->unconstrained());
   const Eigen::Matrix3d ordinaryAdaptation =

@@ -155,6 +155,22 @@ TEST(SpectralTransformTest, DefaultBandsAgainstConverged) {
   }
 }
 
+TEST(SpectralTransformTest, BorderDoesNotDependOnTheBands) {
+  // A line of emission at the end of the observer's range that is in at one number of bands and out at another moves
+  // all colours beyond the border: daylight's probes, many of which no reflectance makes under these lights.
+  const ErrorProtocol daylight(specOf("D65", "A"), chart());
+  for (const char* const light : {"Mercury", "HP1"}) {
+    const TransformSpec spec = specOf(light, "D65");
+    const SpectralTransform transform(spec);
+    const SpectralTransform converged(spec, kConvergedBandCount);
+    const ErrorProtocol::Report report =
+        daylight.measureAgainst(converged, [&](std::span<float> rgba) { transform.apply(rgba); });
+    std::printf("[ bands ] %s -> D65: p99 %.4f max %.4f; worst %s\n", light, report.p99, report.max,
+                report.worstProbe.c_str());
+    EXPECT_LE(report.p99, 0.2) << light;
+  }
+}
+
 TEST(SpectralTransformTest, InvertsItsOwnSpectrum) {
   const TransformSpec spec = specOf("D65", "HP1");
   const SpectralTransform transform(spec, kConvergedBandCount);
