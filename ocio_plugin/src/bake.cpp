@@ -56,7 +56,7 @@ Made make(const sip::Recipe& recipe, const spectral::DataLibrary& library, const
   if (!options.tolerance) {
     const Representation representation =
         options.representation.value_or(prepared.transform.isIdentity() ? Representation::Identity : usual);
-    made.operators = operatorsFor(prepared, options, format.content, representation, certificate);
+    made.operators = operatorsFor(prepared, options, format, representation, certificate);
     return made;
   }
   if (!(*options.tolerance > 0.0) || options.representation) {
@@ -65,14 +65,14 @@ Made make(const sip::Recipe& recipe, const spectral::DataLibrary& library, const
         options.representation ? "chooses the representation itself; name one or the other" : "must be above 0");
   }
   if (prepared.transform.isIdentity()) {
-    made.operators = operatorsFor(prepared, options, format.content, Representation::Identity, certificate);
+    made.operators = operatorsFor(prepared, options, format, Representation::Identity, certificate);
     return made;
   }
   BakeOptions tried = options;
   const int largest = options.size != 0 ? tableSize(options, usual) : kLargestUsual;
   const auto measure = [&](const Rung& rung) {
     tried.size = rung.size;
-    made.operators = operatorsFor(prepared, tried, format.content, rung.representation, certificate);
+    made.operators = operatorsFor(prepared, tried, format, rung.representation, certificate);
     return protocol.measure(
         Candidate(PixelProcessor(made.operators.group), made.operators.toPixels, made.operators.fromPixels));
   };

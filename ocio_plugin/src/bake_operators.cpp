@@ -113,12 +113,13 @@ sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& pr
   return probes;
 }
 
-Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, LutFormat::Content content,
+Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, const LutFormat& format,
                        Representation representation, Certificate& certificate) {
   const WorkingSpace& space = prepared.space;
-  const bool isCube = content != LutFormat::Content::Operators;
+  const bool isCube = format.content != LutFormat::Content::Operators;
   certificate.representation = representation;
   certificate.fitted = options.fitted;
+  certificate.negativesKept = format.holdsNegatives;
   certificate.size = tableSize(options, isCube ? Representation::LogCube : representation);
   if (!isCube && representation != Representation::LogCube) {
     return {space.wrapped(engineOperators(representation, prepared.spec, prepared.transform, certificate.size)),
@@ -133,7 +134,8 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, Lut
                        {.size = certificate.size,
                         .fitted = options.fitted,
                         .lowestStop = static_cast<double>(certificate.probes.lowestStop),
-                        .highestStop = static_cast<double>(certificate.probes.highestStop)});
+                        .highestStop = static_cast<double>(certificate.probes.highestStop),
+                        .belowZero = format.holdsNegatives});
   } else if (representation != Representation::Identity) {
     onSignal =
         inOrder({signal.toEngine, engineOperators(representation, prepared.spec, prepared.transform, certificate.size),

@@ -29,7 +29,7 @@ bool holdsChain(const LutFormat& format);
 /// @throws spectral::InputError: stops that do not rise, a space that a table cannot be made for
 sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& prepared, const BakeOptions& options);
 
-/// A recipe as operators on what a file of the content holds, and the way there from the engine's pixels.
+/// A recipe as operators on what a file of a format holds, and the way there from the engine's pixels.
 struct Operators {
   OCIO::GroupTransformRcPtr group;
   OCIO::ConstTransformRcPtr toPixels;
@@ -37,7 +37,7 @@ struct Operators {
 };
 
 /// The operators of a representation. Says in `certificate`, whose probes are set, what they are.
-Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, LutFormat::Content content,
+Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, const LutFormat& format,
                        Representation representation, Certificate& certificate);
 
 /// Runs linear pixels of the engine through a transform of pixels of the working space, or of a cube's signal.

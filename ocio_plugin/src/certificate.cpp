@@ -86,15 +86,17 @@ struct Policy {
   std::string notANumber;
 };
 
-Policy policyOf(Representation representation) {
-  switch (representation) {
+Policy policyOf(const Certificate& certificate) {
+  switch (certificate.representation) {
     case Representation::Identity:
       return {"kept", "kept", "kept"};
     case Representation::Matrix:
       return {"kept, linear", "kept, linear", "NaN in, NaN out, in that pixel alone"};
     case Representation::LogCube:
-      return {"clipped below the shaper's signal 0", "clipped above the shaper's signal 1",
-              "a colour of the table, in that pixel alone"};
+      return {std::string("in: clipped below the shaper's signal 0; out: ") +
+                  (certificate.negativesKept ? "kept as signals below 0, which stand for what leaves the gamut"
+                                             : "clipped at signal 0, as the format holds whole numbers"),
+              "clipped above the shaper's signal 1", "a colour of the table, in that pixel alone"};
     case Representation::ExposureInvariantChain:
       return {
           "kept within what the observer can see; chromaticities beyond are clamped to its border, and colours that "
@@ -150,7 +152,7 @@ std::string Certificate::json() const {
     }
     transform["choice"] = {{"tolerance", choice->tolerance}, {"on", "p99"}, {"tried", tried}};
   }
-  const Policy policy = policyOf(representation);
+  const Policy policy = policyOf(*this);
   const Json document = {
       {"metamer_certificate", 1},
       {"tool", {{"name", "metamer"}, {"version", toolVersion()}}},
@@ -224,7 +226,7 @@ std::vector<std::string> Certificate::lines() const {
   for (const auto& input : inputs) {
     result.push_back(input.role + ": " + portable(input.provenance.name) + " sha256 " + input.provenance.sha256);
   }
-  const Policy policy = policyOf(representation);
+  const Policy policy = policyOf(*this);
   result.push_back("negatives: " + policy.negatives);
   result.push_back("out of range: " + policy.outOfRange);
   result.push_back("not a number: " + policy.notANumber);

@@ -3,7 +3,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
+
+#include "parallel.h"
 
 namespace metamer::ocio {
 namespace {
@@ -13,16 +14,36 @@ Eigen::Vector3f times(const Symmetric& m, const Eigen::Vector3f& v) {
           m[3] * v[0] + m[4] * v[1] + m[5] * v[2]};
 }
 
+/// The inverse, or zero where there is none.
+Symmetric inverted(const Symmetric& m) {
+  Eigen::Matrix3d block;
+  block << m[0], m[1], m[3], m[1], m[2], m[4], m[3], m[4], m[5];
+  const Eigen::Matrix3f found = block.inverse().cast<float>();
+  return found.allFinite() ? Symmetric{found(0, 0), found(1, 0), found(1, 1), found(2, 0), found(2, 1), found(2, 2)}
+                           : Symmetric{};
+}
+
 void accumulate(Symmetric& sum, const Symmetric& m, float factor) {
   for (std::size_t k = 0; k < 6; ++k) {
     sum[k] += factor * m[k];
   }
 }
 
-double dot(const std::vector<Eigen::Vector3f>& a, const std::vector<Eigen::Vector3f>& b) {
+/// Rows a task.
+constexpr std::size_t kBlock = 2048;
+
+/// Calls `body(first, last)` for blocks of rows, and sums what it returns in the order of blocks.
+template <typename Body>
+double sumOverBlocks(std::size_t count, const Body& body) {
+  const std::size_t blocks = (count + kBlock - 1) / kBlock;
+  std::vector<double> sums(blocks);
+  parallelFor(static_cast<int>(blocks), [&](int block) {
+    const std::size_t first = kBlock * static_cast<std::size_t>(block);
+    sums[static_cast<std::size_t>(block)] = body(first, std::min(count, first + kBlock));
+  });
   double sum = 0.0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    sum += static_cast<double>(a[k].dot(b[k]));
+  for (const double part : sums) {
+    sum += part;
   }
   return sum;
 }
@@ -61,13 +82,38 @@ CubeStencil cubeStencil(const Eigen::Vector3f& signal, int size) {
   return stencil;
 }
 
-CubeEquations::CubeEquations(int size) {
-  const auto count = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-  m_blocks.resize(count);
-  m_right.resize(count);
+CubeEquations::CubeEquations(int size, const std::vector<std::uint8_t>& touched) : m_rowOf(touched.size(), kNone) {
   for (unsigned mask = 0; mask < 8; ++mask) {
     m_steps[mask] = cornerStep(mask, size);
   }
+  for (std::uint32_t node = 0; node < touched.size(); ++node) {
+    if (touched[node] != 0) {
+      m_rowOf[node] = static_cast<std::uint32_t>(m_nodeOf.size());
+      m_nodeOf.push_back(node);
+    }
+  }
+  const auto side = static_cast<std::uint32_t>(size);
+  std::array<std::uint32_t, 8> none{};
+  none.fill(kNone);
+  m_above.assign(m_nodeOf.size(), none);
+  m_below.assign(m_nodeOf.size(), none);
+  for (std::uint32_t row = 0; row < m_nodeOf.size(); ++row) {
+    const std::uint32_t node = m_nodeOf[row];
+    const std::array<std::uint32_t, 3> at = {node % side, node / side % side, node / (side * side)};
+    for (unsigned mask = 0; mask < 8; ++mask) {
+      bool isInside = true;
+      for (unsigned axis = 0; axis < 3; ++axis) {
+        isInside = isInside && at[axis] + ((mask >> axis) & 1U) < side;
+      }
+      const std::uint32_t other = isInside ? m_rowOf[node + m_steps[mask]] : kNone;
+      m_above[row][mask] = other;
+      if (other != kNone) {
+        m_below[other][mask] = row;
+      }
+    }
+  }
+  m_blocks.resize(m_nodeOf.size());
+  m_right.resize(m_nodeOf.size());
   clear();
 }
 
@@ -80,29 +126,36 @@ void CubeEquations::add(const CubeStencil& stencil, const Symmetric& metric, con
                         float weight) {
   const Eigen::Vector3f pull = weight * times(metric, target);
   for (std::size_t m = 0; m < 4; ++m) {
+    if (!(stencil.weight[m] > 0.0F)) {
+      continue;
+    }
     const unsigned corner = stencil.corner[m];
-    const std::uint32_t node = stencil.node + m_steps[corner];
-    m_right[node] += stencil.weight[m] * pull;
+    const std::uint32_t row = m_rowOf[stencil.node + m_steps[corner]];
+    m_right[row] += stencil.weight[m] * pull;
     for (std::size_t n = m; n < 4; ++n) {
-      accumulate(m_blocks[node][stencil.corner[n] ^ corner], metric, weight * stencil.weight[m] * stencil.weight[n]);
+      accumulate(m_blocks[row][stencil.corner[n] ^ corner], metric, weight * stencil.weight[m] * stencil.weight[n]);
     }
   }
 }
 
-void CubeEquations::addDifference(std::uint32_t node, unsigned mask, const Symmetric& metric,
-                                  const Eigen::Vector3f& target) {
-  const std::uint32_t other = node + m_steps[mask];
-  accumulate(m_blocks[node][0], metric, 1.0F);
-  accumulate(m_blocks[other][0], metric, 1.0F);
-  accumulate(m_blocks[node][mask], metric, -1.0F);
-  const Eigen::Vector3f pull = times(metric, target);
-  m_right[other] += pull;
-  m_right[node] -= pull;
-}
-
-void CubeEquations::addValue(std::uint32_t node, const Symmetric& metric, const Eigen::Vector3f& target) {
-  accumulate(m_blocks[node][0], metric, 1.0F);
-  m_right[node] += times(metric, target);
+void CubeEquations::addSmoothness(const Symmetric& stiffness, const Symmetric& attachment,
+                                  const std::vector<Eigen::Vector3f>& start) {
+  for (std::size_t row = 0; row < m_nodeOf.size(); ++row) {
+    const Eigen::Vector3f& here = start[m_nodeOf[row]];
+    accumulate(m_blocks[row][0], attachment, 1.0F);
+    m_right[row] += times(attachment, here);
+    for (const unsigned mask : {1U, 2U, 4U}) {
+      const std::uint32_t other = m_above[row][mask];
+      if (other != kNone) {
+        accumulate(m_blocks[row][0], stiffness, 1.0F);
+        accumulate(m_blocks[other][0], stiffness, 1.0F);
+        accumulate(m_blocks[row][mask], stiffness, -1.0F);
+        const Eigen::Vector3f pull = times(stiffness, start[m_nodeOf[other]] - here);
+        m_right[other] += pull;
+        m_right[row] -= pull;
+      }
+    }
+  }
 }
 
 Symmetric CubeEquations::meanBlock() const {
@@ -119,75 +172,77 @@ Symmetric CubeEquations::meanBlock() const {
   return mean;
 }
 
-void CubeEquations::multiply(const std::vector<Eigen::Vector3f>& x, std::vector<Eigen::Vector3f>& result) const {
-  std::fill(result.begin(), result.end(), Eigen::Vector3f::Zero());
-  const std::size_t count = x.size();
-  for (std::size_t node = 0; node < count; ++node) {
-    const auto& row = m_blocks[node];
-    Eigen::Vector3f sum = times(row[0], x[node]);
-    for (unsigned mask = 1; mask < 8; ++mask) {
-      const std::size_t other = node + m_steps[mask];
-      if (other < count) {
-        sum += times(row[mask], x[other]);
-        result[other] += times(row[mask], x[node]);
-      }
+Eigen::Vector3f CubeEquations::rowTimes(std::size_t row, const Column& x) const {
+  Eigen::Vector3f sum = times(m_blocks[row][0], x[row]);
+  for (unsigned mask = 1; mask < 8; ++mask) {
+    const std::uint32_t above = m_above[row][mask];
+    if (above != kNone) {
+      sum += times(m_blocks[row][mask], x[above]);
     }
-    result[node] += sum;
+    const std::uint32_t below = m_below[row][mask];
+    if (below != kNone) {
+      sum += times(m_blocks[below][mask], x[below]);
+    }
   }
+  return sum;
 }
 
 int CubeEquations::solve(std::vector<Eigen::Vector3f>& nodes, const std::vector<std::uint8_t>& held, double fall,
                          int most) const {
-  const std::size_t count = nodes.size();
-  std::vector<Eigen::Matrix3f> inverse(count);
-  for (std::size_t node = 0; node < count; ++node) {
-    const Symmetric& m = m_blocks[node][0];
-    Eigen::Matrix3d block;
-    block << m[0], m[1], m[3], m[1], m[2], m[4], m[3], m[4], m[5];
-    const Eigen::Matrix3d found = block.inverse();
-    inverse[node] =
-        held[node] == 0 && found.allFinite() ? Eigen::Matrix3f(found.cast<float>()) : Eigen::Matrix3f::Zero();
+  const std::size_t count = m_nodeOf.size();
+  Column x(count);
+  for (std::size_t row = 0; row < count; ++row) {
+    x[row] = nodes[m_nodeOf[row]];
   }
-  std::vector<Eigen::Vector3f> residual(count);
-  std::vector<Eigen::Vector3f> product(count);
-  multiply(nodes, product);
-  const auto precondition = [&](std::vector<Eigen::Vector3f>& result) {
-    for (std::size_t k = 0; k < count; ++k) {
-      result[k] = inverse[k] * residual[k];
+  std::vector<Symmetric> inverse(count);  // of the blocks on the diagonal; zero where a node is held
+  Column residual(count);
+  Column scaled(count);
+  double square = sumOverBlocks(count, [&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t row = first; row < last; ++row) {
+      const bool isHeld = held[m_nodeOf[row]] != 0;
+      inverse[row] = isHeld ? Symmetric{} : inverted(m_blocks[row][0]);
+      residual[row] = isHeld ? Eigen::Vector3f::Zero() : Eigen::Vector3f(m_right[row] - rowTimes(row, x));
+      scaled[row] = times(inverse[row], residual[row]);
+      sum += static_cast<double>(residual[row].dot(scaled[row]));
     }
-  };
-  for (std::size_t k = 0; k < count; ++k) {
-    residual[k] = held[k] != 0 ? Eigen::Vector3f::Zero() : Eigen::Vector3f(m_right[k] - product[k]);
-  }
-  std::vector<Eigen::Vector3f> scaled(count);
-  precondition(scaled);
-  std::vector<Eigen::Vector3f> direction = scaled;
-  double square = dot(residual, scaled);
+    return sum;
+  });
   const double enough = square * fall * fall;
+  Column direction = scaled;
+  Column product(count);
   int step = 0;
   for (; step < most && square > enough; ++step) {
-    multiply(direction, product);
-    for (std::size_t k = 0; k < count; ++k) {
-      if (held[k] != 0) {
-        product[k].setZero();
+    const double curvature = sumOverBlocks(count, [&](std::size_t first, std::size_t last) {
+      double sum = 0.0;
+      for (std::size_t row = first; row < last; ++row) {
+        product[row] = held[m_nodeOf[row]] != 0 ? Eigen::Vector3f::Zero() : rowTimes(row, direction);
+        sum += static_cast<double>(direction[row].dot(product[row]));
       }
-    }
-    const double curvature = dot(direction, product);
+      return sum;
+    });
     if (!(curvature > 0.0)) {
       break;
     }
     const auto stride = static_cast<float>(square / curvature);
-    for (std::size_t k = 0; k < count; ++k) {
-      nodes[k] += stride * direction[k];
-      residual[k] -= stride * product[k];
-    }
-    precondition(scaled);
-    const double next = dot(residual, scaled);
+    const double next = sumOverBlocks(count, [&](std::size_t first, std::size_t last) {
+      double sum = 0.0;
+      for (std::size_t row = first; row < last; ++row) {
+        x[row] += stride * direction[row];
+        residual[row] -= stride * product[row];
+        scaled[row] = times(inverse[row], residual[row]);
+        sum += static_cast<double>(residual[row].dot(scaled[row]));
+      }
+      return sum;
+    });
     const auto turn = static_cast<float>(next / square);
     square = next;
-    for (std::size_t k = 0; k < count; ++k) {
-      direction[k] = scaled[k] + turn * direction[k];
+    for (std::size_t row = 0; row < count; ++row) {
+      direction[row] = scaled[row] + turn * direction[row];
     }
+  }
+  for (std::size_t row = 0; row < count; ++row) {
+    nodes[m_nodeOf[row]] = x[row];
   }
   return step;
 }

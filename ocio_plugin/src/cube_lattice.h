@@ -30,36 +30,49 @@ inline std::uint32_t cornerStep(unsigned mask, int size) {
 /// A symmetric 3 x 3 matrix: (0,0) (1,0) (1,1) (2,0) (2,1) (2,2).
 using Symmetric = std::array<float, 6>;
 
-/// Normal equations of a lattice of three values a node, as 3 x 3 blocks: each node with itself and the seven others of
-/// the cell above it, which is all that tetrahedra couple.
+/// Normal equations of the nodes of a lattice that samples touch, three values a node, as 3 x 3 blocks: each node with
+/// itself and with the seven others of the cell above it, which is all that tetrahedra couple.
+///
+/// Rows are the touched nodes in the lattice's order. Sums have a fixed order, whatever the number of threads.
 class CubeEquations {
  public:
-  explicit CubeEquations(int size);
+  /// @param touched  a node of the lattice for which this is not 0 gets a row
+  CubeEquations(int size, const std::vector<std::uint8_t>& touched);
 
   void clear();
-  /// Adds the square, in a metric, of `value at the stencil - target`.
+  /// Adds the square, in a metric, of `value at the stencil - target`. All corners of some weight have rows.
+  /// May run at once with others whose stencils lie two planes of blue away or more.
   void add(const CubeStencil& stencil, const Symmetric& metric, const Eigen::Vector3f& target, float weight);
-  /// Adds `weight` times the square of the difference of two nodes, an edge of a cell apart, less `target`.
-  void addDifference(std::uint32_t node, unsigned mask, const Symmetric& metric, const Eigen::Vector3f& target);
-  /// Adds the square of a node less `target`.
-  void addValue(std::uint32_t node, const Symmetric& metric, const Eigen::Vector3f& target);
+  /// Adds that the nodes should move as their neighbours along the axes do, and not at all.
+  /// @param stiffness   of moving unlike a neighbour
+  /// @param attachment  to the starting values
+  /// @param start       of all nodes of the lattice
+  void addSmoothness(const Symmetric& stiffness, const Symmetric& attachment,
+                     const std::vector<Eigen::Vector3f>& start);
 
   /// Mean of the blocks on the diagonal.
   Symmetric meanBlock() const;
 
-  /// Solves by conjugate gradients, preconditioned by the blocks on the diagonal. The order of sums is fixed.
-  /// @param nodes  in: where to start, and the values of nodes that are held. out: the solution
+  /// Solves by conjugate gradients, preconditioned by the blocks on the diagonal.
+  /// @param nodes  all of the lattice's. in: where to start, and the values of nodes that are held. out: the solution
   /// @param held   a node for which this is not 0 keeps its value
   /// @param fall   ends where the residual has fallen by this factor, or after `most` steps
   /// @return steps taken
   int solve(std::vector<Eigen::Vector3f>& nodes, const std::vector<std::uint8_t>& held, double fall, int most) const;
 
  private:
-  void multiply(const std::vector<Eigen::Vector3f>& x, std::vector<Eigen::Vector3f>& result) const;
+  using Column = std::vector<Eigen::Vector3f>;
+  static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+  Eigen::Vector3f rowTimes(std::size_t row, const Column& x) const;
 
   std::array<std::uint32_t, 8> m_steps = {};
-  std::vector<std::array<Symmetric, 8>> m_blocks;  // a node's row: with the corner of each mask of its cell
-  std::vector<Eigen::Vector3f> m_right;
+  std::vector<std::uint32_t> m_rowOf;                 // of a node, or kNone
+  std::vector<std::uint32_t> m_nodeOf;                // of a row
+  std::vector<std::array<std::uint32_t, 8>> m_above;  // row of a row's cell corner, or kNone
+  std::vector<std::array<std::uint32_t, 8>> m_below;  // row whose cell has this row at a corner, or kNone
+  std::vector<std::array<Symmetric, 8>> m_blocks;     // a row's: with the corner of each mask of its cell
+  Column m_right;
 };
 
 }  // namespace metamer::ocio

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLuminance = 0.18;
 /// Chromaticities, and exposures of each a stop.
-constexpr int kChromaticityCount = 25000;
+constexpr int kChromaticityCount = 12000;
 constexpr int kExposuresPerStop = 1;
 /// Chromaticities a task.
 constexpr int kBlock = 250;

@@ -34,7 +34,7 @@ OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const
   if (options.fitted) {
     // Half a stop more at either end: what is judged at a stop lies in the middle of what is fitted.
     fitCube(nodes, size, cubeSamples(transform, signal, size, options.lowestStop - 0.5, options.highestStop + 0.5),
-            CubeJudge(transform, signal));
+            CubeJudge(transform, signal), options.belowZero);
   }
   auto table = OCIO::Lut3DTransform::Create(static_cast<unsigned long>(size));
   table->setInterpolation(OCIO::INTERP_TETRAHEDRAL);

@@ -37,6 +37,11 @@ colorspaces:
 """
 
 
+def is_node(line):
+    """Whether a line of a table is one of its nodes: numbers, with or without a sign."""
+    return line.lstrip("-")[:1].isdigit()
+
+
 class Help(LutgenTest):
     def test_help_goes_to_stdout(self):
         for arguments in (["--help"], ["bake", "--help"], ["apply", "--help"], ["list", "--help"], ["--version"]):
@@ -128,8 +133,8 @@ class Bake(LutgenTest):
         text = self.assertWorks(
             "bake", *DAY_TO_TUNGSTEN, "--cubesize", "9", "--shaperspace", "LogC3", "--format", "iridas_cube", "--stdout"
         )
-        numbers = [line for line in text.splitlines() if line[:1].isdigit()]
-        written = [line for line in (self.folder / "a.cube").read_text().splitlines() if line[:1].isdigit()]
+        numbers = [line for line in text.splitlines() if is_node(line)]
+        written = [line for line in (self.folder / "a.cube").read_text().splitlines() if is_node(line)]
         self.assertEqual(numbers, written)
         self.assertEqual(len(numbers), 9**3)
         self.assertFails(
@@ -140,7 +145,8 @@ class Bake(LutgenTest):
     def test_a_lut_file_in_another_format(self):
         self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--size", "9", "-o", "a.cube")
         self.assertWorks("bake", "--lut", "a.cube", "--cubesize", "9", "-o", "b.spi3d")
-        nodes = [line.split() for line in (self.folder / "a.cube").read_text().splitlines() if line[:1].isdigit()]
+        nodes = [line.split() for line in (self.folder / "a.cube").read_text().splitlines() if is_node(line)]
+        self.assertEqual(len(nodes), 9**3)
         # Red runs fastest in one, blue in the other.
         found = {tuple(map(int, line.split()[:3])): line.split()[3:]
                  for line in (self.folder / "b.spi3d").read_text().splitlines()[3:]}

@@ -64,7 +64,8 @@ class LutWriterTest : public testing::TestWithParam<std::size_t> {
                            shaperTransform(spectral::LogEncoding::AcesCct, OCIO::TRANSFORM_DIR_FORWARD)};
     const auto spec = sip::specOf("D65", "A");
     result->appendTransform(
-        logCube(sip::SpectralTransform(spec), signal, {.size = kSize, .fitted = hasIntegers(format().name)}));
+        logCube(sip::SpectralTransform(spec), signal,
+                {.size = kSize, .fitted = hasIntegers(format().name), .belowZero = !hasIntegers(format().name)}));
     return result;
   }
 };

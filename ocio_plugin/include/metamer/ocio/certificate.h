@@ -39,6 +39,7 @@ struct Certificate {
   std::optional<CertifiedChoice> choice;  ///< where there was a tolerance
   int size = 0;                           ///< nodes along a side of its table, 0 without one
   bool fitted = false;                    ///< whether the table's nodes are solved for least error
+  bool negativesKept = true;              ///< whether a log cube's nodes may be signals below 0
   std::string shaper;                     ///< of a log cube; empty without one
   int bandCount = 0;                      ///< of the engine that made it
   std::string gamut;                      ///< working space of the probes

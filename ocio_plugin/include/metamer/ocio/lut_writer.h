@@ -22,6 +22,7 @@ struct LutFormat {
   std::string extension;  ///< with its dot
   std::string use;        ///< one line for a list
   Content content = Content::Cube;
+  bool holdsNegatives = true;  ///< false: whole numbers, which clip at 0
 };
 
 /// All that OCIO's group writer and baker know, the one that an extension picks first among those that share it.
