@@ -4,18 +4,12 @@
     METAMER_BIN=build/release/bin build/venv/bin/python demo/ofx_picture.py docs/images/ofx.jpg
 """
 
-import os
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
-
-import numpy as np
 
 import contact_sheet
 import pictures
+from ofx_still import rendered
 
-BIN = Path(os.environ["METAMER_BIN"])
 SETTINGS = [
     ("as shot, D65", {}),
     ("blackbody at 1900 K", {"outputIlluminant": "Blackbody", "outputTemperature": 1900}),
@@ -25,19 +19,6 @@ SETTINGS = [
                                         "outputDensity": 0.6}),
     ("RGB LED, adaptation 1", {"outputIlluminant": "LED-RGB1", "adaptation": 1}),
 ]
-
-
-def rendered(rgb, settings):
-    height, width = rgb.shape[:2]
-    with tempfile.TemporaryDirectory() as folder:
-        source, result = Path(folder) / "in", Path(folder) / "out"
-        np.ascontiguousarray(np.dstack([rgb, np.ones((height, width), np.float32)])[::-1]).tofile(source)
-        words = [BIN / "metamer_ofx_render", BIN.parent / "OFX", "org.metamer.SpectralTransfer", width, height, source,
-                 result, "--threads", 2]
-        for name, value in settings.items():
-            words += ["--set", f"{name}={value}"]
-        subprocess.run([str(word) for word in words], check=True)
-        return np.fromfile(result, np.float32).reshape(height, width, 4)[::-1, :, :3]
 
 
 def main():

@@ -36,18 +36,21 @@ def acescg_from_srgb() -> np.ndarray:
     return np.linalg.solve(xyz_from_rgb(ACESCG), adapt @ xyz_from_rgb(SRGB))
 
 
-def photograph(name: str) -> np.ndarray:
-    """A photograph of scikit-image's own data folder as scene-linear ACEScg, height x width x 3, float32.
-
-    The file is sRGB, 8 bits a channel: its curve is undone, its white becomes ACEScg (1, 1, 1).
-    """
-    package = find_spec("skimage")
-    if package is None or package.origin is None:
-        raise FileNotFoundError("scikit-image is not installed: run script/bootstrap")
-    with Image.open(Path(package.origin).parent / "data" / name) as picture:
+def opened(file: Path | str) -> np.ndarray:
+    """An 8-bit sRGB picture as scene-linear ACEScg, height x width x 3, float32: its curve is undone, its white becomes
+    ACEScg (1, 1, 1)."""
+    with Image.open(file) as picture:
         encoded = np.asarray(picture.convert("RGB"), dtype=np.float64) / 255
     linear = np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
     return (linear @ acescg_from_srgb().T).astype(np.float32)
+
+
+def photograph(name: str) -> np.ndarray:
+    """A photograph of scikit-image's own data folder, as opened() gives it."""
+    package = find_spec("skimage")
+    if package is None or package.origin is None:
+        raise FileNotFoundError("scikit-image is not installed: run script/bootstrap")
+    return opened(Path(package.origin).parent / "data" / name)
 
 
 def view(acescg: np.ndarray) -> np.ndarray:

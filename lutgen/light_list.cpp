@@ -32,8 +32,9 @@ std::vector<std::string> cellsOf(const std::string& line) {
 
 }  // namespace
 
-LightList::LightList(const std::filesystem::path& file, sip::LatLong layout) : m_layout(layout) {
-  std::istringstream stream(spectral::readTextFile(file));
+std::vector<PositionedLight> parseLights(const std::string& text, const std::string& where) {
+  std::vector<PositionedLight> lights;
+  std::istringstream stream(text);
   std::string line;
   bool hasHeader = false;
   for (int number = 1; std::getline(stream, line); ++number) {
@@ -41,38 +42,43 @@ LightList::LightList(const std::filesystem::path& file, sip::LatLong layout) : m
     if (line.empty() || line.front() == '#') {
       continue;
     }
-    const std::string where = file.string() + ":" + std::to_string(number);
+    const std::string at = where + ":" + std::to_string(number);
     const std::vector<std::string> cells = cellsOf(line);
     if (!hasHeader) {
       if (cells != std::vector<std::string>{"name", "x", "y", "z"}) {
-        throw InputError(where, "header", line, "must be name,x,y,z");
+        throw InputError(at, "header", line, "must be name,x,y,z");
       }
       hasHeader = true;
       continue;
     }
     if (cells.size() != 4) {
-      throw InputError(where, "columns", std::to_string(cells.size()), "must be 4: name,x,y,z");
+      throw InputError(at, "columns", std::to_string(cells.size()), "must be 4: name,x,y,z");
     }
-    Light light{cells[0], {}};
+    PositionedLight light{cells[0], {}};
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::string& text = cells[k + 1];
+      const std::string& cell = cells[k + 1];
       const auto parsed =
-          std::from_chars(text.data(), text.data() + text.size(), light.position[static_cast<Eigen::Index>(k)]);
-      if (parsed.ec != std::errc() || parsed.ptr != text.data() + text.size()) {
-        throw InputError(where, "position", text, "must be a number");
+          std::from_chars(cell.data(), cell.data() + cell.size(), light.position[static_cast<Eigen::Index>(k)]);
+      if (parsed.ec != std::errc() || parsed.ptr != cell.data() + cell.size()) {
+        throw InputError(at, "position", cell, "must be a number");
       }
     }
-    if (!(light.position.norm() > 0) || !light.position.allFinite()) {
-      throw InputError(where, "position", line, "must not be the stage's middle");
+    if (!light.position.allFinite() || light.position.isZero(0)) {
+      throw InputError(at, "position", line, "must not be the stage's middle");
     }
-    if (m_lights.size() == kMostLights) {
-      throw InputError(where, "lights", "", "are more than " + std::to_string(kMostLights));
+    if (lights.size() == kMostLights) {
+      throw InputError(at, "lights", "", "are more than " + std::to_string(kMostLights));
     }
-    m_lights.push_back(std::move(light));
+    lights.push_back(std::move(light));
   }
-  if (m_lights.empty()) {
-    throw InputError(file.string(), "lights", "", "are none; give the header name,x,y,z and a line a light");
+  if (lights.empty()) {
+    throw InputError(where, "lights", "", "are none; give the header name,x,y,z and a line a light");
   }
+  return lights;
+}
+
+LightList::LightList(const std::filesystem::path& file, sip::LatLong layout)
+    : m_layout(layout), m_lights(parseLights(spectral::readTextFile(file), file.string())) {
   m_side = std::max(1, m_layout.width / kMostCellsAcross);
   m_cells = {(m_layout.width + m_side - 1) / m_side, (m_layout.height + m_side - 1) / m_side};
   m_sums = Eigen::Matrix4Xd::Zero(4, static_cast<Eigen::Index>(m_cells.width) * m_cells.height);
@@ -95,7 +101,7 @@ std::string LightList::drivesAsCsv(const sip::EnvironmentDriver& driver,
                                    const std::vector<std::string>& emitters) const {
   Eigen::Matrix3Xd directions(3, static_cast<Eigen::Index>(m_lights.size()));
   for (std::size_t i = 0; i < m_lights.size(); ++i) {
-    directions.col(static_cast<Eigen::Index>(i)) = m_lights[i].position.normalized();
+    directions.col(static_cast<Eigen::Index>(i)) = m_lights[i].position.stableNormalized();
   }
   Eigen::Matrix4Xd lights = Eigen::Matrix4Xd::Zero(4, directions.cols());
   for (int row = 0; row < m_cells.height; ++row) {

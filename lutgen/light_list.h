@@ -11,10 +11,21 @@
 
 namespace metamer::lutgen {
 
+/// A light of the stage.
+struct PositionedLight {
+  std::string name;
+  Eigen::Vector3d position;  ///< from the stage's middle, finite, never there
+};
+
+/// Lights from CSV: the header name,x,y,z, and a line a light (metres, or any unit; the axes of sip::LatLong).
+/// @param where  what messages call it
+/// @throws spectral::InputError
+std::vector<PositionedLight> parseLights(const std::string& text, const std::string& where);
+
 /// Lights at positions round the stage's middle, each of which stands for the directions nearest to its own.
 class LightList {
  public:
-  /// @param file  CSV with the header name,x,y,z (metres, or any unit; the axes of sip::LatLong)
+  /// @param file  as of parseLights
   /// @throws spectral::InputError
   LightList(const std::filesystem::path& file, sip::LatLong layout);
 
@@ -25,14 +36,10 @@ class LightList {
   std::string drivesAsCsv(const sip::EnvironmentDriver& driver, const std::vector<std::string>& emitters) const;
 
  private:
-  struct Light {
-    std::string name;
-    Eigen::Vector3d position;
-  };
   sip::LatLong m_layout;
   sip::LatLong m_cells;
   int m_side = 1;  ///< pixels along a side of a cell
-  std::vector<Light> m_lights;
+  std::vector<PositionedLight> m_lights;
   Eigen::Matrix4Xd m_sums;  ///< radiance times solid angle, and solid angle, a column a cell
 };
 

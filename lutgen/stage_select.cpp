@@ -8,6 +8,7 @@
 #include "metamer/sip/chart_difference.h"
 #include "metamer/sip/emitter_selection.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 #include "progress.h"
 #include "stage_commands.h"
 #include "stage_json.h"
@@ -37,18 +38,44 @@ struct Target {
   spectral::DomainSamples power;
 };
 
+/// Where a word such as "grass" stands in the tables, and what to do where it does not.
+std::string remedyFor(const std::string& word, const spectral::DataLibrary& library) {
+  constexpr int kMostNames = 5;
+  std::string found;
+  int count = 0;
+  for (const std::string& set : library.reflectanceSetNames()) {
+    for (const spectral::Spectrum& sample : library.reflectances(set).samples) {
+      const bool isLike = spectral::lowerCase(sample.name()).find(spectral::lowerCase(word)) != std::string::npos;
+      if (isLike && ++count <= kMostNames) {
+        found += (found.empty() ? "; did you mean '" : "', '") + set + ":" + sample.name();
+      }
+    }
+  }
+  return found.empty() ? "is in none of the measured tables; give a file with its reflectance (CSV: wavelength_nm,name)"
+                       : "is no set, and no file; write SET:PATCH" + found + "'?";
+}
+
 /// "SET:PATCH", or a file with one reflectance.
 spectral::Spectrum reflectanceNamed(const std::string& text, const spectral::DataLibrary& library) {
+  const auto sets = library.reflectanceSetNames();
+  const auto isSet = [&](const std::string& name) {
+    return std::any_of(sets.begin(), sets.end(),
+                       [&](const std::string& set) { return spectral::lowerCase(set) == spectral::lowerCase(name); });
+  };
   const std::size_t colon = text.rfind(':');
-  if (colon != std::string::npos) {
+  if (colon != std::string::npos && isSet(text.substr(0, colon))) {
     const auto set = library.reflectances(text.substr(0, colon));
     const std::string patch = text.substr(colon + 1);
     for (const spectral::Spectrum& sample : set.samples) {
-      if (sample.name() == patch) {
+      if (spectral::lowerCase(sample.name()) == spectral::lowerCase(patch)) {
         return sample;
       }
     }
-    throw InputError("--bounce", "patch", patch, "is not in the set '" + set.name + "'");
+    throw InputError("--bounce", "patch", patch, "is not in the set '" + set.name + "'; " + remedyFor(patch, library));
+  }
+  const bool isWord = text.find_first_of("/\\.:") == std::string::npos;
+  if (isWord && !isSet(text)) {
+    throw InputError("--bounce", "reflectance", text, remedyFor(text, library));
   }
   auto set = library.reflectances(text);
   if (set.samples.size() != 1) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "metamer/spectral/input_error.h"
+
 namespace metamer::ofx {
 
 void FileStamps::add(const std::filesystem::path& file) {
@@ -23,6 +25,13 @@ FileStamps::Stamp FileStamps::stampOf(const std::filesystem::path& file) {
   }
   stamp.time = std::filesystem::last_write_time(file, missing);
   return stamp;
+}
+
+void requireFile(const std::filesystem::path& file, const std::string& parameter, const std::string& remedy) {
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(file, missing)) {
+    throw spectral::InputError(file.string(), parameter, "", "no such file; " + remedy);
+  }
 }
 
 }  // namespace metamer::ofx

@@ -27,4 +27,8 @@ class FileStamps {
   std::vector<Stamp> m_stamps;
 };
 
+/// For files that a parameter names: the host shows the message, so it says which field and what to do.
+/// @throws spectral::InputError where there is no file
+void requireFile(const std::filesystem::path& file, const std::string& parameter, const std::string& remedy);
+
 }  // namespace metamer::ofx

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "affine_pixels.h"
+#include "file_stamp.h"
 #include "metamer/spectral/input_error.h"
 #include "parameter_makers.h"
 #include "shared_cache.h"
@@ -62,6 +63,7 @@ class LedStage final : public Effect {
     if (file.empty()) {
       return std::make_shared<AffinePixels>(AffinePixels::Form{});
     }
+    requireFile(file, "stageFile", "choose what lutgen stage solve wrote anew, or clear the field");
     const auto stage = m_stages.get(file, [&] {
       FileStamps files;
       files.add(file);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral_transfer.h"
 
+#include "file_stamp.h"
 #include "metamer/sip/recipe.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
@@ -25,6 +26,7 @@ class RecipeReader {
   sip::Recipe read() const {
     const std::string file = m_values.text("recipeFile", m_time);
     if (!file.empty()) {
+      requireFile(file, "recipeFile", "choose the recipe anew, or clear the field to go by the menus");
       return sip::readRecipe(file);
     }
     sip::Recipe recipe;
@@ -45,6 +47,7 @@ class RecipeReader {
     if (path.empty()) {
       throw InputError("", name, "", "no file is chosen; choose one, or another entry in " + menu);
     }
+    requireFile(path, name, "choose the file anew, or another entry in " + menu);
     return path.find_first_of("/\\") == std::string::npos ? "./" + path : path;
   }
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
@@ -14,10 +13,12 @@ namespace {
 using nlohmann::json;
 using spectral::InputError;
 
+constexpr const char* kRemedy = "write the file with lutgen stage solve";
+
 const json& member(const json& root, const std::string& where, const char* key) {
   const auto found = root.find(key);
   if (found == root.end()) {
-    throw InputError(where, key, "", "is missing; write the file with lutgen stage solve");
+    throw InputError(where, key, "", std::string("is missing; ") + kRemedy);
   }
   return *found;
 }
@@ -52,7 +53,10 @@ Eigen::Matrix3d readMatrix(const json& root, const std::string& where, const cha
 }  // namespace
 
 Stage readStageFile(const std::filesystem::path& file) {
-  const std::string where = file.string();
+  return parseStageFile(spectral::readTextFile(file), file.string());
+}
+
+Stage parseStageFile(const std::string& text, const std::string& where) {
   // Deep nesting is refused by depth before the parser builds it.
   constexpr int kDeepest = 32;
   const json::parser_callback_t shallow = [&](int depth, json::parse_event_t, json&) {
@@ -63,9 +67,12 @@ Stage readStageFile(const std::filesystem::path& file) {
   };
   json root;
   try {
-    root = json::parse(spectral::readTextFile(file), shallow);
-  } catch (const json::exception& error) {
-    throw InputError(where, "", "", std::string("is not JSON: ") + error.what());
+    root = json::parse(text, shallow);
+  } catch (const json::parse_error& error) {
+    // Its own message quotes the file at any length.
+    throw InputError(where, "", "", "is not JSON from byte " + std::to_string(error.byte) + " on; " + kRemedy);
+  } catch (const json::exception&) {
+    throw InputError(where, "", "", std::string("is not JSON: a number is out of range; ") + kRemedy);
   }
   if (!root.is_object()) {
     throw InputError(where, "", "", "must be a JSON object with M, Q, N and offset");

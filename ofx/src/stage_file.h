@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <string>
 
 namespace metamer::ofx {
 
@@ -18,5 +19,7 @@ struct Stage {
 /// are not looked at.
 /// @throws spectral::InputError naming the file, the key and the remedy
 Stage readStageFile(const std::filesystem::path& file);
+/// The same from text. @param where what messages call it
+Stage parseStageFile(const std::string& text, const std::string& where);
 
 }  // namespace metamer::ofx

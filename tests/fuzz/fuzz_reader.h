@@ -3,12 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
-#include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
+#include "refusal.h"
 
 namespace metamer::spectral {
 
@@ -21,19 +20,12 @@ void fuzzReader(const Reader& reader, const std::uint8_t* data, std::size_t size
                                           SpectralQuantity::Reflectance, SpectralQuantity::Transmittance}) {
     try {
       const std::vector<Spectrum> spectra = reader(text, "input", quantity);
-      if (spectra.empty()) {
-        std::abort();
-      }
+      require(!spectra.empty());
       for (const Spectrum& spectrum : spectra) {
-        if (!spectrum.onDomain().allFinite()) {
-          std::abort();
-        }
+        require(spectrum.onDomain().allFinite());
       }
     } catch (const InputError& error) {
-      const std::string message = error.what();
-      if (message.find('\n') != std::string::npos || message.size() > 400) {
-        std::abort();
-      }
+      checkRefusal(error);
     }
   }
 }

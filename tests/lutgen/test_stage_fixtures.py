@@ -11,7 +11,7 @@ import OpenEXR
 from scipy.optimize import nnls
 
 from lutgen import LutgenTest, lutgen
-from stage_physics import WAVELENGTHS, camera, chart, form_factor, led, light, model, spectra, write_chart
+from stage_physics import WAVELENGTHS, camera, chart, form_factor, led, light, model, spectra, write_chart, write_spectrum
 
 EMITTERS = ["led:628:14", "led:525:24", "led:460:16", "led:500:22", "led:595:12", "phosphor:450:20:560:120:0.8"]
 WHITE = 18
@@ -177,7 +177,20 @@ class SelectTest(LutgenTest):
         self.assertFails("stage", "select", "--json", "s.json", "--targets", "A", "--emitters", *self.POOL, "--keep",
                          "red", says=["--keep", "red"])
         self.assertFails("stage", "select", "--json", "s.json", "--targets", "A", "--emitters", *self.POOL, "--bounce",
-                         "pmc:Sand", says=["Sand", "pmc"])
+                         "pmc:Sand", says=["Sand", "pmc", "none of the measured tables", "give a file"])
+
+    def test_bounces(self):
+        """Grass is measured; sand is not, and comes from a file. A word is told where it stands, or that it does not."""
+        base = ["stage", "select", "--json", "s.json", "--targets", "D65", "--emitters", *self.POOL[:3], "--bounce"]
+        self.assertFails(*base, "grass", says=["'grass'", "SET:PATCH", "pmc:Summer Grass"])
+        self.assertFails(*base, "sand", says=["'sand'", "none of the measured tables", "give a file"])
+        self.assertFails(*base, "colorchecker", says=["holds 24", "SET:PATCH"])
+        write_spectrum(self.folder / "sand.csv", np.linspace(0.1, 0.5, 401), "sand")
+        ours = self.select("--targets", "D65", "--emitters", *self.POOL[:4], "--bounce", "PMC:summer grass",
+                           self.folder / "sand.csv")
+        self.assertEqual([case.split(",")[0] for case in ours["cases"]], ["D65", "D65 off Summer Grass", "D65 off sand"])
+        alone = self.select("--targets", "D65", "--emitters", *self.POOL[:4])
+        self.assertNotAlmostEqual(ours["best"][2]["error"], alone["best"][2]["error"], places=6)
 
 
 class PanelTest(LutgenTest):

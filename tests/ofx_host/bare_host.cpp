@@ -189,13 +189,13 @@ OfxStatus Instance::act(const char* action, Properties* in, Properties* out) con
   return m_host.act(m_plugin, action, m_effect.get(), in, out);
 }
 
-OfxStatus Instance::render(const OfxRectI& window, double time, const std::string& field) const {
+OfxStatus Instance::render(const OfxRectI& window, double time, const std::string& field, OfxPointD scale) const {
   Properties in;
   in.set(kOfxPropTime, time);
   in.set(kOfxImageEffectPropFieldToRender, field);
   in.setAll(kOfxImageEffectPropRenderWindow, {window.x1, window.y1, window.x2, window.y2});
-  in.set(kOfxImageEffectPropRenderScale, 0, 1.0);
-  in.set(kOfxImageEffectPropRenderScale, 1, 1.0);
+  in.set(kOfxImageEffectPropRenderScale, 0, scale.x);
+  in.set(kOfxImageEffectPropRenderScale, 1, scale.y);
   return act(kOfxImageEffectActionRender, &in, nullptr);
 }
 

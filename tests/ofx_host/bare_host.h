@@ -40,6 +40,7 @@ struct Image {
   std::string components = kOfxImageComponentRGBA;
   std::string premultiplication = kOfxImageUnPreMultiplied;
   std::string field = kOfxImageFieldNone;
+  OfxPointD renderScale{1, 1};
 };
 
 struct Clip {
@@ -126,7 +127,9 @@ class Instance {
   std::string menuOption(const std::string& parameter) const;
 
   OfxStatus act(const char* action, Properties* in, Properties* out) const;
-  OfxStatus render(const OfxRectI& window, double time = 0, const std::string& field = kOfxImageFieldNone) const;
+  /// @param window  in pixels at that scale
+  OfxStatus render(const OfxRectI& window, double time = 0, const std::string& field = kOfxImageFieldNone,
+                   OfxPointD renderScale = {1, 1}) const;
   /// Name of the clip that stands for the result, or nothing.
   std::string identity(const OfxRectI& window, double time = 0) const;
 

@@ -75,6 +75,8 @@ OfxStatus clipGetImage(OfxImageClipHandle handle, OfxTime, const OfxRectD*, OfxP
   handed->properties.set(kOfxImageEffectPropComponents, shown.components);
   handed->properties.set(kOfxImageEffectPropPreMultiplication, shown.premultiplication);
   handed->properties.set(kOfxImagePropField, shown.field);
+  handed->properties.set(kOfxImageEffectPropRenderScale, 0, shown.renderScale.x);
+  handed->properties.set(kOfxImageEffectPropRenderScale, 1, shown.renderScale.y);
   ++handed->effect->imagesOut;
   *image = handed->properties.handle();
   return kOfxStatOK;

@@ -167,6 +167,49 @@ TEST_F(OfxImages, FieldsWriteTheirOwnRows) {
   }
 }
 
+TEST_F(OfxImages, ProxiesAreTransformedPixelByPixel) {
+  Frame wholeMask({.bounds = kBounds, .components = kOfxImageComponentAlpha});
+  wholeMask.fill([](int x, int y) { return Frame::Rgba{0, 0, 0, (x + y) % 3 == 0 ? 1.0F : 0.25F}; });
+  m_effect->connect("Mask", wholeMask.image());
+  Frame wholeSource({.bounds = kBounds});
+  wholeSource.fill(testPixel);
+  Frame whole({.bounds = kBounds});
+  ASSERT_EQ(run(wholeSource, whole, kBounds), kOfxStatOK);
+  // Every second and third pixel, as a host that skips pixels for a proxy; bounds in pixels of the proxy.
+  for (const auto& [stepX, stepY] : {std::pair(2, 2), std::pair(2, 1), std::pair(1, 3)}) {
+    const OfxPointD scale{1.0 / stepX, 1.0 / stepY};
+    const OfxRectI bounds = {-7 / stepX, 11 / stepY + 1, 57 / stepX, 39 / stepY};
+    const auto skipped = [&, stepX = stepX, stepY = stepY](const Frame& frame) {
+      return [&frame, stepX, stepY](int x, int y) { return frame.at(x * stepX, y * stepY); };
+    };
+    Frame source({.bounds = bounds, .padding = 12, .topDown = true});
+    source.fill(skipped(wholeSource));
+    Frame mask({.bounds = bounds, .components = kOfxImageComponentAlpha});
+    mask.fill(skipped(wholeMask));
+    Frame output({.bounds = bounds});
+    const auto atScale = [&](const Frame& frame) {
+      Image image = frame.image();
+      image.renderScale = scale;
+      return image;
+    };
+    m_effect->connect("Source", atScale(source));
+    m_effect->connect("Mask", atScale(mask));
+    m_effect->connect("Output", atScale(output));
+    // In two tiles.
+    const int middle = (bounds.x1 + bounds.x2) / 2;
+    for (const OfxRectI& tile :
+         {OfxRectI{bounds.x1, bounds.y1, middle, bounds.y2}, OfxRectI{middle, bounds.y1, bounds.x2, bounds.y2}}) {
+      ASSERT_EQ(m_effect->render(tile, 0, kOfxImageFieldNone, scale), kOfxStatOK);
+    }
+    EXPECT_TRUE(output.isGuardIntact());
+    for (int y = bounds.y1; y < bounds.y2; ++y) {
+      for (int x = bounds.x1; x < bounds.x2; ++x) {
+        ASSERT_EQ(output.bytes(x, y), whole.bytes(x * stepX, y * stepY)) << x << " " << y << " at 1/" << stepX;
+      }
+    }
+  }
+}
+
 TEST_F(OfxImages, OverlappingMemoryIsReadBeforeItIsWritten) {
   Frame source({.bounds = kBounds});
   source.fill(testPixel);

@@ -81,7 +81,7 @@ TEST_F(OfxParameters, AMissingRecipePassesThePictureThroughUntilItIsThere) {
   const auto effect = m_host.create(0);
   const std::string file = (m_folder.path() / "100 %s day.yaml").string();
   effect->set("recipeFile", file);
-  expectPassesThrough(*effect, {file});
+  expectPassesThrough(*effect, {file, "recipeFile", "no such file", "choose the recipe anew"});
   const int shown = effect->effect().messagesShown;
   render(*effect);
   EXPECT_EQ(effect->effect().messagesShown, shown) << "the same message is not shown anew";
@@ -102,7 +102,7 @@ TEST_F(OfxParameters, SpectraFromFilesAreFollowed) {
   const auto effect = m_host.create(0, {{"outputIlluminant", "From file"}, {"scene", "Data set"}});
   expectPassesThrough(*effect, {"outputIlluminantFile", "no file is chosen"});
   effect->set("outputIlluminantFile", std::string(m_folder.path() / "lamp.csv"));
-  expectPassesThrough(*effect, {"lamp.csv"});
+  expectPassesThrough(*effect, {"lamp.csv", "outputIlluminantFile", "no such file", "choose the file anew"});
   write("lamp.csv", "nm,power\n380,1\n580,1\n780,3\n");
   const auto first = render(*effect);
   EXPECT_NE(first, m_source.at(3, 3));

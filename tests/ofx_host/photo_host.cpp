@@ -92,7 +92,7 @@ class EffectInstance final : public ImageEffect::Instance, public Effect {
   int lastStatus() const override { return m_status; }
   std::string message() const override { return m_message; }
 
-  void setSilently(const std::string& parameter, const std::string& text) { value(parameter).setText(text); }
+  void setSilently(const std::string& parameter, const std::string& text) { assign(parameter, text); }
 
   // ImageEffect::Instance.
   const std::string& getDefaultOutputFielding() const override {
@@ -151,6 +151,14 @@ class EffectInstance final : public ImageEffect::Instance, public Effect {
       throw std::runtime_error("no parameter " + parameter);
     }
     return *held;
+  }
+  void assign(const std::string& parameter, const std::string& text) const {
+    TextValue& held = value(parameter);
+    try {
+      held.setText(text);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(parameter + ": " + error.what());
+    }
   }
 
   ClipKind m_kind;
@@ -265,7 +273,7 @@ std::unique_ptr<Effect> Host::create(const std::string& plugin, const std::strin
                                      const std::map<std::string, std::string>& settings) {
   ImageEffect::ImageEffectPlugin* found = m_state->effects.getPluginById(plugin);
   if (found == nullptr) {
-    throw std::runtime_error("no plug-in " + plugin);
+    throw std::runtime_error("no plug-in " + plugin + " in the folder; list prints those that are");
   }
   m_state->description.kindOfNext = kind;
   std::unique_ptr<ImageEffect::Instance> made(found->createInstance(context, nullptr));

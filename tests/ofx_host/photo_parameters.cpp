@@ -17,7 +17,7 @@ Value parsed(const std::string& text) {
   stream.imbue(std::locale::classic());
   Value value{};
   if (!(stream >> value)) {
-    throw std::runtime_error("not a number: " + text);
+    throw std::runtime_error("must be a number, not '" + text + "'");
   }
   return value;
 }
@@ -74,6 +74,9 @@ class Menu final : public Single<Param::ChoiceInstance, int> {
         m_value = i;
         return;
       }
+    }
+    if (text.find_first_not_of("0123456789") != std::string::npos || text.empty()) {
+      throw std::runtime_error("has no entry '" + text + "'");
     }
     m_value = parsed<int>(text);
   }
