@@ -16,9 +16,9 @@ namespace metamer::sip {
 /// The transform is homogeneous of degree one, so it is known everywhere once it is known on the directions of RGB
 /// space. Directions are the faces of a cube in coordinates `p = cubeFromRgb * rgb`: a pixel is its largest |p| times
 /// a point of a face. Each face is a grid of root cells, each root cell a dense table of patches 2^depth by 2^depth.
-/// A patch is bicubic in the face's two coordinates, built from the transform's exact values and derivatives at its
-/// corners and checked between them. Where the transform is one matrix (no band clamped: most natural colours), the
-/// kernel skips the table and applies that matrix.
+/// A patch is a cubic (Adini's element) in the face's two coordinates, built from the transform's exact values and
+/// derivatives at its corners and checked between them. Where the transform is one matrix (no band clamped: most
+/// natural colours), the kernel skips the table and applies that matrix.
 ///
 /// Plain buffers without pointers, ready to be copied to another device. Immutable after build.
 struct HomogeneousMap {
@@ -26,13 +26,13 @@ struct HomogeneousMap {
   static constexpr int kFrontFace = 4;  ///< +p[2]: every real colour; the others hold what is beyond all lights
   static constexpr int kDepthBits = 3;
   static constexpr int kMaximumDepth = 6;
-  static constexpr std::array<int, kFaceCount> kRootsPerSide = {8, 8, 8, 8, 32, 8};
+  static constexpr std::array<int, kFaceCount> kRootBits = {3, 3, 3, 3, 5, 3};  ///< log2 of a side's root cells
   /// What lies beyond all lights is continuous and bounded there, and needs no more.
   static constexpr std::array<int, kFaceCount> kDepthLimit = {2, 2, 2, 2, kMaximumDepth, 2};
-  /// For each power j of v (0 ... 3), for each power i of u (0 ... 3): red, green, blue, 0. In units of a pixel whose
-  /// largest |p| is 1; u, v run 0 ... 1 over the patch. Aligned to lines of cache: a row of v's is one load.
-  struct alignas(64) Patch {
-    std::array<float, 64> coefficients;
+  /// Twelve terms, each red, green, blue, in units of a pixel whose largest |p| is 1; u, v run 0 ... 1 over the patch.
+  /// Powers of u (0 ... 3) with v^0, then with v^1; then (0, 1) with v^2 and with v^3: all that Adini's element has.
+  struct Patch {
+    std::array<float, 36> coefficients;
   };
   static constexpr std::size_t kMostLinearNormals = 8;
 
