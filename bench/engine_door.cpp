@@ -67,13 +67,13 @@ std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
                 static_cast<std::uint32_t>((cellV >> Map::kMaximumDepth) * side + (cellU >> Map::kMaximumDepth))];
   const int depth = static_cast<int>(root & kDepthMask);
   const int shift = Map::kMaximumDepth - depth;
-  const std::uint32_t entry =
-      map.patchIndex[(root >> Map::kDepthBits) +
-                     static_cast<std::uint32_t>((((cellV & kMask) >> shift) << depth) + ((cellU & kMask) >> shift))];
-  const int span = Map::kMaximumDepth - static_cast<int>(entry & kDepthMask);
-  const T localU = (u - T((cellU >> span) << span)) / T(1 << span);
-  const T localV = (v - T((cellV >> span) << span)) / T(1 << span);
-  const auto& patch = map.patches[entry >> Map::kDepthBits].coefficients;
+  const Map::Patch& found =
+      map.patches[map.patchIndex[(root >> Map::kDepthBits) +
+                                 static_cast<std::uint32_t>((((cellV & kMask) >> shift) << depth) +
+                                                            ((cellU & kMask) >> shift))]];
+  const T localU = T(found.scale) * (u / T(cells) - T(0.5)) + T(found.offset[0]);
+  const T localV = T(found.scale) * (v / T(cells) - T(0.5)) + T(found.offset[1]);
+  const auto& patch = found.coefficients;
   // Powers of u and v of a patch's terms.
   constexpr std::array<std::array<int, 2>, 12> kPowers = {
       {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}}};

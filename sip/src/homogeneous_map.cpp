@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "perceptual_metric.h"
@@ -188,12 +189,21 @@ class Builder {
     return (at.metric * (evaluate(patch, u, v) - at.exact.value)).norm() / at.tolerance;
   }
 
-  std::uint32_t store(const Adini& patch) {
+  /// @param u, v, side  corner and side in units of 1 / steps of the face
+  std::uint32_t store(const Adini& adini, int u, int v, int side, int steps) {
     const auto index = static_cast<std::uint32_t>(m_map.patches.size());
-    float* next = m_map.patches.emplace_back().coefficients.data();
-    for (const auto& coefficient : patch) {
-      Eigen::Map<Eigen::Vector3f>{next} = coefficient.cast<float>();
-      next += 3;
+    Map::Patch& patch = m_map.patches.emplace_back();
+    for (std::size_t term = 0; term < adini.size(); ++term) {
+      Eigen::Map<Eigen::Vector3f>(patch.coefficients.data() + 3 * term) = adini[term].cast<float>();
+    }
+    // All exact: powers of two, and multiples of them.
+    const std::array<float, 2> low = {static_cast<float>(u) / static_cast<float>(steps),
+                                      static_cast<float>(v) / static_cast<float>(steps)};
+    patch.scale = static_cast<float>(steps / side);
+    patch.extent = (1U << (std::numeric_limits<float>::digits - 1)) / static_cast<std::uint32_t>(steps / side);
+    for (std::size_t k = 0; k < 2; ++k) {
+      patch.offset[k] = (0.5F - low[k]) * patch.scale;
+      patch.corner[k] = 1.0F + low[k];
     }
     ++m_map.statistics.patches;
     return index;
@@ -221,7 +231,7 @@ class Builder {
     }
     if (worst <= 1.0 || deepest) {
       m_map.statistics.largestError = std::max(m_map.statistics.largestError, worst * m_tolerance);
-      placed.push_back({level, i, j, store(patch)});
+      placed.push_back({level, i, j, store(patch, u, v, side, steps)});
       return;
     }
     for (int dj = 0; dj < 2; ++dj) {
@@ -246,8 +256,7 @@ class Builder {
       const int span = 1 << (depth - patch.level);
       for (int row = patch.j * span; row < (patch.j + 1) * span; ++row) {
         for (int column = patch.i * span; column < (patch.i + 1) * span; ++column) {
-          m_map.patchIndex[first + static_cast<std::size_t>(row * side + column)] =
-              (patch.patch << Map::kDepthBits) | static_cast<std::uint32_t>(patch.level);
+          m_map.patchIndex[first + static_cast<std::size_t>(row * side + column)] = patch.patch;
         }
       }
     }

@@ -39,8 +39,8 @@ using Mask = hn::Mask<Float>;
 constexpr float kSmallest = std::numeric_limits<float>::min();
 constexpr float kBelowTwo = 2.0F - std::numeric_limits<float>::epsilon();
 constexpr int kMantissaBits = 23;
-/// How far ahead memory is asked for: 2 KiB.
-constexpr std::size_t kPrefetchedPixels = 128;
+/// How far ahead memory is asked for: 4 KiB.
+constexpr std::size_t kPrefetchedPixels = 256;
 
 HWY_INLINE V dot(const float* row, V x, V y, V z) {
   const Float d;
@@ -86,47 +86,30 @@ HWY_INLINE Places placesOn(V px, V py, V length) {
   return {x, y, cell(x), cell(y), length};
 }
 
-/// A patch and what it covers.
-struct Cover {
-  const float* coefficients;
-  std::int32_t extent;  ///< in units of the cells' last mantissa bit
-  float x;              ///< its corner
-  float y;
-  float scale;  ///< patches to a unit
-};
-
 /// The patch of a cell of a face, given as in Places.
-inline Cover coverOf(const Map& map, std::size_t face, float cellX, float cellY) {
+inline const Map::Patch& patchOf(const Map& map, std::size_t face, float cellX, float cellY) {
   const int rootBits = Map::kRootBits[face];
   const int cellBits = rootBits + Map::kMaximumDepth;
-  const int shift = kMantissaBits - cellBits;
-  const auto bitsX = std::bit_cast<std::uint32_t>(cellX);
-  const auto bitsY = std::bit_cast<std::uint32_t>(cellY);
   const std::uint32_t cellMask = (1U << cellBits) - 1U;
-  const std::uint32_t column = bitsX >> shift & cellMask;
-  const std::uint32_t row = bitsY >> shift & cellMask;
+  const std::uint32_t column = std::bit_cast<std::uint32_t>(cellX) >> (kMantissaBits - cellBits) & cellMask;
+  const std::uint32_t row = std::bit_cast<std::uint32_t>(cellY) >> (kMantissaBits - cellBits) & cellMask;
   const std::uint32_t root =
       map.roots[map.faceOffset[face] + (row >> Map::kMaximumDepth << rootBits) + (column >> Map::kMaximumDepth)];
   constexpr std::uint32_t kDepthMask = (1U << Map::kDepthBits) - 1U;
   constexpr std::uint32_t kInRoot = (1U << Map::kMaximumDepth) - 1U;
   const std::uint32_t depth = root & kDepthMask;
   const std::uint32_t coarser = Map::kMaximumDepth - depth;
-  const std::uint32_t entry = map.patchIndex[(root >> Map::kDepthBits) + ((row & kInRoot) >> coarser << depth) +
-                                             ((column & kInRoot) >> coarser)];
-  const int spanBits = shift + Map::kMaximumDepth - static_cast<int>(entry & kDepthMask);
-  const std::uint32_t corner = ~0U << spanBits;
-  return {map.patches[entry >> Map::kDepthBits].coefficients.data(), std::int32_t{1} << spanBits,
-          std::bit_cast<float>(bitsX & corner) - 1.5F, std::bit_cast<float>(bitsY & corner) - 1.5F,
-          std::bit_cast<float>(static_cast<std::uint32_t>(127 + kMantissaBits - spanBits) << kMantissaBits)};
+  return map.patches[map.patchIndex[(root >> Map::kDepthBits) + ((row & kInRoot) >> coarser << depth) +
+                                    ((column & kInRoot) >> coarser)]];
 }
 
-/// Lanes whose cells a patch covers, that of one among them given.
-HWY_INLINE Mask coveredWith(const Places& places, const Cover& cover, float cellX, float cellY) {
+/// Lanes that lie on a patch.
+HWY_INLINE Mask on(const Map::Patch& patch, const Places& places) {
   const Float d;
   const Int di;
-  const auto differ = [&](V cells, float cell) { return hn::BitCast(di, hn::Xor(cells, hn::Set(d, cell))); };
-  return hn::RebindMask(
-      d, hn::Lt(hn::Or(differ(places.cellX, cellX), differ(places.cellY, cellY)), hn::Set(di, cover.extent)));
+  const auto differ = [&](V cells, float corner) { return hn::BitCast(di, hn::Xor(cells, hn::Set(d, corner))); };
+  const auto bits = hn::Or(differ(places.cellX, patch.corner[0]), differ(places.cellY, patch.corner[1]));
+  return hn::RebindMask(d, hn::Lt(bits, hn::Set(di, static_cast<std::int32_t>(patch.extent))));
 }
 
 struct Colours {
@@ -136,13 +119,13 @@ struct Colours {
 };
 
 /// Values of a patch times the pixels' lengths, where the mask says so.
-HWY_INLINE void applyPatch(const Cover& cover, const Places& places, Mask mask, Colours& result) {
+HWY_INLINE void applyPatch(const Map::Patch& patch, const Places& places, Mask mask, Colours& result) {
   const Float d;
-  const V scale = hn::Set(d, cover.scale);
-  const V u = hn::Mul(hn::Sub(places.x, hn::Set(d, cover.x)), scale);
-  const V v = hn::Mul(hn::Sub(places.y, hn::Set(d, cover.y)), scale);
+  const V scale = hn::Set(d, patch.scale);
+  const V u = hn::Add(hn::Mul(places.x, scale), hn::Set(d, patch.offset[0]));
+  const V v = hn::Add(hn::Mul(places.y, scale), hn::Set(d, patch.offset[1]));
   const auto channel = [&](std::size_t k) {
-    const auto term = [&](std::size_t i) { return hn::Set(d, cover.coefficients[3 * i + k]); };
+    const auto term = [&](std::size_t i) { return hn::Set(d, patch.coefficients[3 * i + k]); };
     const auto next = [](V sum, V x, V addend) { return hn::Add(hn::Mul(sum, x), addend); };
     const V constant = next(next(next(term(3), u, term(2)), u, term(1)), u, term(0));
     const V linear = next(next(next(term(7), u, term(6)), u, term(5)), u, term(4));
@@ -172,7 +155,7 @@ HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, Mask far, Colours& 
     const Places places =
         placesOn(hn::Set(d, p[(axis + 1) % 3]), hn::Set(d, p[(axis + 2) % 3]), hn::Set(d, std::abs(p[axis])));
     const Mask own = hn::RebindMask(d, hn::Eq(hn::Iota(Int(), 0), hn::Set(Int(), static_cast<std::int32_t>(lane))));
-    applyPatch(coverOf(map, 2 * axis + (p[axis] > 0.0F ? 0 : 1), hn::GetLane(places.cellX), hn::GetLane(places.cellY)),
+    applyPatch(patchOf(map, 2 * axis + (p[axis] > 0.0F ? 0 : 1), hn::GetLane(places.cellX), hn::GetLane(places.cellY)),
                places, own, result);
     far = hn::AndNot(own, far);
   }
@@ -206,8 +189,8 @@ HWY_INLINE bool begin(const Map& map, const float* source, float* destination, P
   V b = hn::LoadU(d, source + 2 * lanes);
   V a = hn::LoadU(d, source + 3 * lanes);
   transpose(r, g, b, a);
-  // x * 0 is 0 for finite x only.
   const V zero = hn::Zero(d);
+  // x * 0 is 0 for finite x only.
   const Mask finite = hn::Eq(hn::Add(hn::Add(hn::Mul(r, zero), hn::Mul(g, zero)), hn::Mul(b, zero)), zero);
   V inside = map.linearNormalCount == 0 ? hn::Set(d, -1.0F) : zero;
   const float* normal = map.linearNormals.data();
@@ -248,9 +231,9 @@ HWY_INLINE void finish(const Map& map, const Pending& pending) {
   Mask todo = pending.todo;
   for (std::intptr_t lane = hn::FindFirstTrue(d, todo); lane >= 0; lane = hn::FindFirstTrue(d, todo)) {
     const auto first = static_cast<std::size_t>(lane);
-    const Cover cover = coverOf(map, Map::kFrontFace, cellX[first], cellY[first]);
-    const Mask same = coveredWith(pending.places, cover, cellX[first], cellY[first]);
-    applyPatch(cover, pending.places, hn::And(todo, same), result);
+    const Map::Patch& patch = patchOf(map, Map::kFrontFace, cellX[first], cellY[first]);
+    const Mask same = on(patch, pending.places);
+    applyPatch(patch, pending.places, hn::And(todo, same), result);
     todo = hn::AndNot(same, todo);
   }
   store(result, pending.alpha, pending.destination);

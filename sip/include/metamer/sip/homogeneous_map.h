@@ -29,10 +29,16 @@ struct HomogeneousMap {
   static constexpr std::array<int, kFaceCount> kRootBits = {3, 3, 3, 3, 5, 3};  ///< log2 of a side's root cells
   /// What lies beyond all lights is continuous and bounded there, and needs no more.
   static constexpr std::array<int, kFaceCount> kDepthLimit = {2, 2, 2, 2, kMaximumDepth, 2};
-  /// Twelve terms, each red, green, blue, in units of a pixel whose largest |p| is 1; u, v run 0 ... 1 over the patch.
-  /// Powers of u (0 ... 3) with v^0, then with v^1; then (0, 1) with v^2 and with v^3: all that Adini's element has.
+  /// Twelve terms, each red, green, blue, in units of a pixel whose largest |p| is 1. Powers of u (0 ... 3) with v^0,
+  /// then with v^1; then (0, 1) with v^2 and with v^3: all that Adini's element has. (u, v), 0 ... 1 over the patch, is
+  /// scale * (x, y) + offset, where (x, y), -0.5 ... 0.5, are half the face coordinates.
   struct Patch {
     std::array<float, 36> coefficients;
+    float scale;
+    std::array<float, 2> offset;
+    /// 1.5 + x and 1.5 + y, within [1, 2), have the bits of `corner` but for those below `extent`, a power of two.
+    std::array<float, 2> corner;
+    std::uint32_t extent;
   };
   static constexpr std::size_t kMostLinearNormals = 8;
 
@@ -44,7 +50,7 @@ struct HomogeneousMap {
   bool identity = false;             ///< apply() copies
   std::vector<std::uint32_t> roots;  ///< face by face, row by row: start in patchIndex << kDepthBits | depth
   std::array<std::uint32_t, kFaceCount> faceOffset{};  ///< of a face's first root
-  std::vector<std::uint32_t> patchIndex;  ///< dense tables of the root cells: patch << kDepthBits | its level
+  std::vector<std::uint32_t> patchIndex;               ///< dense tables of the root cells
   std::vector<Patch> patches;
 
   /// What the build did.
