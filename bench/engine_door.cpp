@@ -34,7 +34,7 @@ std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
     return T(matrix[0]) * T(rgb[0]) + T(matrix[1]) * T(rgb[1]) + T(matrix[2]) * T(rgb[2]);
   };
   bool linear = map.linearNormalCount > 0;
-  for (int i = 0; i < map.linearNormalCount; ++i) {
+  for (std::ptrdiff_t i = 0; i < map.linearNormalCount; ++i) {
     linear = linear && row(map.linearNormals.data() + 3 * i) >= T(0);
   }
   if (linear) {
@@ -53,7 +53,7 @@ std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
     return {};
   }
   const std::size_t face = 2 * axis + (p[axis] > T(0) ? 0 : 1);
-  const int side = Map::kRootsPerSide[face];
+  const int side = 1 << Map::kRootBits[face];
   const int cells = side << Map::kMaximumDepth;
   const auto scaled = [&](std::size_t k) { return (p[k % 3] / length + T(1)) * T(cells) / T(2); };
   const T u = scaled(axis + 1);
@@ -67,23 +67,29 @@ std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
                 static_cast<std::uint32_t>((cellV >> Map::kMaximumDepth) * side + (cellU >> Map::kMaximumDepth))];
   const int depth = static_cast<int>(root & kDepthMask);
   const int shift = Map::kMaximumDepth - depth;
-  const std::uint32_t entry =
-      map.patchIndex[(root >> Map::kDepthBits) +
-                     static_cast<std::uint32_t>((((cellV & kMask) >> shift) << depth) + ((cellU & kMask) >> shift))];
-  const int span = Map::kMaximumDepth - static_cast<int>(entry & kDepthMask);
-  const T localU = (u - T((cellU >> span) << span)) / T(1 << span);
-  const T localV = (v - T((cellV >> span) << span)) / T(1 << span);
-  const auto& patch = map.patches[entry >> Map::kDepthBits].coefficients;
-  std::array<T, 3> sum{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t j = 4; j-- > 0;) {
-      T along = 0;
-      for (std::size_t i = 4; i-- > 0;) {
-        along = along * localU + T(patch[16 * j + 4 * i + k]);
-      }
-      sum[k] = sum[k] * localV + along;
+  const Map::Patch& found =
+      map.patches[map.patchIndex[(root >> Map::kDepthBits) +
+                                 static_cast<std::uint32_t>((((cellV & kMask) >> shift) << depth) +
+                                                            ((cellU & kMask) >> shift))]];
+  const T localU = T(found.scale) * (u / T(cells) - T(0.5)) + T(found.offset[0]);
+  const T localV = T(found.scale) * (v / T(cells) - T(0.5)) + T(found.offset[1]);
+  const auto& patch = found.coefficients;
+  // Powers of u and v of a patch's terms.
+  constexpr std::array<std::array<int, 2>, 12> kPowers = {
+      {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {0, 1}, {1, 1}, {2, 1}, {3, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}}};
+  const auto power = [](T x, int exponent) {
+    T product = 1;
+    for (; exponent > 0; --exponent) {
+      product *= x;
     }
-    sum[k] *= length;
+    return product;
+  };
+  std::array<T, 3> sum{};
+  for (std::size_t term = 0; term < kPowers.size(); ++term) {
+    const T weight = length * power(localU, kPowers[term][0]) * power(localV, kPowers[term][1]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum[k] += weight * T(patch[3 * term + k]);
+    }
   }
   return sum;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "perceptual_metric.h"
@@ -59,8 +60,8 @@ std::vector<Eigen::Vector3d> inscribedPolygon(std::vector<Eigen::Vector3d> corne
   return corners;
 }
 
-/// Bicubic coefficients [power of v][power of u], each an RGB.
-using Bicubic = std::array<std::array<Eigen::Vector3d, 4>, 4>;
+/// Adini's element: twelve terms, each an RGB, in the order of HomogeneousMap::Patch.
+using Adini = std::array<Eigen::Vector3d, 12>;
 
 /// Power coefficients of the cubic with values a, b and derivatives da, db at 0 and 1.
 std::array<Eigen::Vector3d, 4> hermite(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& da,
@@ -68,13 +69,10 @@ std::array<Eigen::Vector3d, 4> hermite(const Eigen::Vector3d& a, const Eigen::Ve
   return {a, da, 3.0 * (b - a) - 2.0 * da - db, 2.0 * (a - b) + da + db};
 }
 
-Eigen::Vector3d evaluate(const Bicubic& patch, double u, double v) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t j = 4; j-- > 0;) {
-    const auto& row = patch[j];
-    sum = sum * v + (((row[3] * u + row[2]) * u + row[1]) * u + row[0]);
-  }
-  return sum;
+Eigen::Vector3d evaluate(const Adini& patch, double u, double v) {
+  const Eigen::Vector3d constant = ((patch[3] * u + patch[2]) * u + patch[1]) * u + patch[0];
+  const Eigen::Vector3d linear = ((patch[7] * u + patch[6]) * u + patch[5]) * u + patch[4];
+  return (((patch[11] * u + patch[10]) * v + (patch[9] * u + patch[8])) * v + linear) * v + constant;
 }
 
 class Builder {
@@ -97,7 +95,7 @@ class Builder {
     addLinearCone();
     for (int face = 0; face < Map::kFaceCount; ++face) {
       m_map.faceOffset[static_cast<std::size_t>(face)] = static_cast<std::uint32_t>(m_map.roots.size());
-      const int side = Map::kRootsPerSide[static_cast<std::size_t>(face)];
+      const int side = 1 << Map::kRootBits[static_cast<std::size_t>(face)];
       for (int j = 0; j < side; ++j) {
         for (int i = 0; i < side; ++i) {
           addRoot(face, i, j);
@@ -147,7 +145,7 @@ class Builder {
     if (!isNew) {
       return made;
     }
-    const int steps = Map::kRootsPerSide[static_cast<std::size_t>(face)] << (Map::kMaximumDepth + 1);
+    const int steps = 1 << (Map::kRootBits[static_cast<std::size_t>(face)] + Map::kMaximumDepth + 1);
     const int axis = face / 2;
     Eigen::Vector3d cube;
     cube[axis] = face % 2 == 0 ? 1.0 : -1.0;
@@ -164,46 +162,48 @@ class Builder {
     return made;
   }
 
-  /// Bicubic Hermite patch over the corners (low-low, high-low, low-high, high-high); the mixed derivatives, which the
-  /// corners do not tell, are Adini's: exact for cubics. Neighbours of one size share their edge exactly.
-  static Bicubic hermitePatch(const std::array<const Node*, 4>& corner, double side) {
-    const auto value = [&](std::size_t k) -> const Eigen::Vector3d& { return corner[k]->exact.value; };
-    const auto du = [&](std::size_t k) -> Eigen::Vector3d { return side * corner[k]->alongU; };
-    const auto dv = [&](std::size_t k) -> Eigen::Vector3d { return side * corner[k]->alongV; };
-    const Eigen::Vector3d twist = value(3) - value(1) - value(2) + value(0);
-    const auto mixed = [&](std::size_t k) -> Eigen::Vector3d {
-      const std::size_t row = k & 2U;
-      const std::size_t column = k & 1U;
-      return (du(2 + column) - du(column)) + (dv(row + 1) - dv(row)) - twist;
+  /// The element over the corners (low-low, high-low, low-high, high-high): a cubic along each edge by the values and
+  /// derivatives at its ends. Neighbours of one size share their edge exactly.
+  static Adini adiniPatch(const std::array<const Node*, 4>& corner, double side) {
+    const auto alongU = [&](std::size_t from, std::size_t to) {
+      return hermite(corner[from]->exact.value, corner[to]->exact.value, side * corner[from]->alongU,
+                     side * corner[to]->alongU);
     };
-    // Along u for the four quantities, then along v for each power of u.
-    const auto low = hermite(value(0), value(1), du(0), du(1));
-    const auto high = hermite(value(2), value(3), du(2), du(3));
-    const auto lowSlope = hermite(dv(0), dv(1), mixed(0), mixed(1));
-    const auto highSlope = hermite(dv(2), dv(3), mixed(2), mixed(3));
-    Bicubic patch;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto powers = hermite(low[i], high[i], lowSlope[i], highSlope[i]);
-      for (std::size_t j = 0; j < 4; ++j) {
-        patch[j][i] = powers[j];
-      }
-    }
+    const auto alongV = [&](std::size_t from, std::size_t to) {
+      return hermite(corner[from]->exact.value, corner[to]->exact.value, side * corner[from]->alongV,
+                     side * corner[to]->alongV);
+    };
+    const auto bottom = alongU(0, 1);
+    const auto top = alongU(2, 3);
+    const auto left = alongV(0, 2);
+    const auto right = alongV(1, 3);
+    const Eigen::Vector3d twist = corner[3]->exact.value - corner[2]->exact.value - corner[1]->exact.value + bottom[0];
+    Adini patch{bottom[0],          bottom[1],          bottom[2], bottom[3],          left[1], {},
+                top[2] - bottom[2], top[3] - bottom[3], left[2],   right[2] - left[2], left[3], right[3] - left[3]};
+    patch[5] = twist - patch[6] - patch[7] - patch[9] - patch[11];
     return patch;
   }
 
   /// Error of a patch at a checked point over the tolerance there.
-  static double excess(const Bicubic& patch, const Node& at, double u, double v) {
+  static double excess(const Adini& patch, const Node& at, double u, double v) {
     return (at.metric * (evaluate(patch, u, v) - at.exact.value)).norm() / at.tolerance;
   }
 
-  std::uint32_t store(const Bicubic& patch) {
+  /// @param u, v, side  corner and side in units of 1 / steps of the face
+  std::uint32_t store(const Adini& adini, int u, int v, int side, int steps) {
     const auto index = static_cast<std::uint32_t>(m_map.patches.size());
-    float* next = m_map.patches.emplace_back().coefficients.data();
-    for (const auto& row : patch) {
-      for (const auto& coefficient : row) {
-        Eigen::Map<Eigen::Vector4f>(next) << coefficient.cast<float>(), 0.0F;
-        next += 4;
-      }
+    Map::Patch& patch = m_map.patches.emplace_back();
+    for (std::size_t term = 0; term < adini.size(); ++term) {
+      Eigen::Map<Eigen::Vector3f>(patch.coefficients.data() + 3 * term) = adini[term].cast<float>();
+    }
+    // All exact: powers of two, and multiples of them.
+    const std::array<float, 2> low = {static_cast<float>(u) / static_cast<float>(steps),
+                                      static_cast<float>(v) / static_cast<float>(steps)};
+    patch.scale = static_cast<float>(steps / side);
+    patch.extent = (1U << (std::numeric_limits<float>::digits - 1)) / static_cast<std::uint32_t>(steps / side);
+    for (std::size_t k = 0; k < 2; ++k) {
+      patch.offset[k] = (0.5F - low[k]) * patch.scale;
+      patch.corner[k] = 1.0F + low[k];
     }
     ++m_map.statistics.patches;
     return index;
@@ -216,8 +216,8 @@ class Builder {
     const Node& second = node(face, u + side, v, first, first);
     const Node& third = node(face, u, v + side, first, first);
     const Node& fourth = node(face, u + side, v + side, second, third);
-    const int steps = Map::kRootsPerSide[static_cast<std::size_t>(face)] << (Map::kMaximumDepth + 1);
-    const Bicubic patch = hermitePatch({&first, &second, &third, &fourth}, 2.0 * side / steps);
+    const int steps = 1 << (Map::kRootBits[static_cast<std::size_t>(face)] + Map::kMaximumDepth + 1);
+    const Adini patch = adiniPatch({&first, &second, &third, &fourth}, 2.0 * side / steps);
     const int half = side / 2;
     // The middle first: most patches that fail, fail there.
     double worst = excess(patch, node(face, u + half, v + half, first, fourth), 0.5, 0.5);
@@ -231,7 +231,7 @@ class Builder {
     }
     if (worst <= 1.0 || deepest) {
       m_map.statistics.largestError = std::max(m_map.statistics.largestError, worst * m_tolerance);
-      placed.push_back({level, i, j, store(patch)});
+      placed.push_back({level, i, j, store(patch, u, v, side, steps)});
       return;
     }
     for (int dj = 0; dj < 2; ++dj) {
@@ -256,8 +256,7 @@ class Builder {
       const int span = 1 << (depth - patch.level);
       for (int row = patch.j * span; row < (patch.j + 1) * span; ++row) {
         for (int column = patch.i * span; column < (patch.i + 1) * span; ++column) {
-          m_map.patchIndex[first + static_cast<std::size_t>(row * side + column)] =
-              (patch.patch << Map::kDepthBits) | static_cast<std::uint32_t>(patch.level);
+          m_map.patchIndex[first + static_cast<std::size_t>(row * side + column)] = patch.patch;
         }
       }
     }

@@ -2,13 +2,18 @@
 // The map's pixel kernel, compiled once per instruction set and chosen at run time (Highway).
 //
 // Every result is the same sequence of separate float32 multiplications and additions whatever the instruction set
-// and whichever branch a pixel took, so neighbours, tails and machines cannot change it.
+// and whichever pixels lie beside it, so neighbours, tails and machines cannot change it.
+//
+// A vector of pixels takes the one matrix where that is exact. For the rest, neighbours mostly share a patch: the
+// patch of the first pixel left is evaluated for all that lie on it, its coefficients the same for every lane, until
+// none is left.
 #include "metamer/sip/homogeneous_map.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/homogeneous_map_kernel.cpp"
 #include <hwy/foreach_target.h>
 // Highway's dispatch needs the target list first.
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
@@ -28,231 +33,244 @@ constexpr std::size_t kMostLanes = 16;
 using Float = hn::CappedTag<float, kMostLanes>;
 using Int = hn::RebindToSigned<Float>;
 using V = hn::VFromD<Float>;
-using I = hn::VFromD<Int>;
+using Mask = hn::Mask<Float>;
 
-constexpr int kFrontRoots = Map::kRootsPerSide[Map::kFrontFace];
-constexpr int kFrontRootBits = std::countr_zero(static_cast<unsigned>(kFrontRoots));
-static_assert(1 << kFrontRootBits == kFrontRoots);
 /// Keeps the reciprocal of a denormal finite: such a pixel's place is off, by less than it is bright.
-constexpr float kLargest = std::numeric_limits<float>::max();
-constexpr int kFrontCells = kFrontRoots << Map::kMaximumDepth;
+constexpr float kSmallest = std::numeric_limits<float>::min();
+constexpr float kBelowTwo = 2.0F - std::numeric_limits<float>::epsilon();
+constexpr int kMantissaBits = 23;
+/// How far ahead memory is asked for: 4 KiB.
+constexpr std::size_t kPrefetchedPixels = 256;
 
-HWY_INLINE V dot(V ax, V ay, V az, V x, V y, V z) {
-  return hn::Add(hn::Add(hn::Mul(ax, x), hn::Mul(ay, y)), hn::Mul(az, z));
+HWY_INLINE V dot(const float* row, V x, V y, V z) {
+  const Float d;
+  return hn::Add(hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
+                 hn::Mul(hn::Set(d, row[2]), z));
 }
 
-/// A pixel's place in the table.
-struct Place {
-  const float* patch;
-  float length;  ///< largest |p|
-  float u;       ///< 0 ... 1 over the patch
-  float v;
-};
-
-/// Scalar look-up, for any face: colours beyond the front one are rare (strong negatives).
-inline Place locate(const Map& map, const float* rgb) {
-  std::array<float, 3> p{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float* row = &map.cubeFromRgb[3 * k];
-    p[k] = row[0] * rgb[0] + row[1] * rgb[1] + row[2] * rgb[2];
-  }
-  std::size_t axis = 2;
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (std::abs(p[k]) > std::abs(p[axis])) {
-      axis = k;
-    }
-  }
-  const float length = std::abs(p[axis]);
-  if (!(length > 0.0F)) {
-    return {map.patches.front().coefficients.data(), 0.0F, 0.0F, 0.0F};
-  }
-  const std::size_t face = 2 * axis + (p[axis] > 0.0F ? 0 : 1);
-  const int side = Map::kRootsPerSide[face];
-  const int cells = side << Map::kMaximumDepth;
-  const float halfReciprocal = std::min(0.5F / length, kLargest);
-  const auto scaled = [&](std::size_t k) { return (p[k % 3] * halfReciprocal + 0.5F) * static_cast<float>(cells); };
-  const float u = scaled(axis + 1);
-  const float v = scaled(axis + 2);
-  const int cellU = std::clamp(static_cast<int>(u), 0, cells - 1);
-  const int cellV = std::clamp(static_cast<int>(v), 0, cells - 1);
-  const std::uint32_t root =
-      map.roots[map.faceOffset[face] +
-                static_cast<std::uint32_t>((cellV >> Map::kMaximumDepth) * side + (cellU >> Map::kMaximumDepth))];
-  constexpr std::uint32_t kDepthMask = (1U << Map::kDepthBits) - 1U;
-  const auto depth = static_cast<int>(root & kDepthMask);
-  const int shift = Map::kMaximumDepth - depth;
-  const int mask = (1 << Map::kMaximumDepth) - 1;
-  const std::uint32_t entry =
-      map.patchIndex[(root >> Map::kDepthBits) +
-                     static_cast<std::uint32_t>((((cellV & mask) >> shift) << depth) + ((cellU & mask) >> shift))];
-  // The patch spans 2^span finest cells and starts at a multiple of that.
-  const int span = Map::kMaximumDepth - static_cast<int>(entry & kDepthMask);
-  const float reciprocal = 1.0F / static_cast<float>(1 << span);
-  return {map.patches[entry >> Map::kDepthBits].coefficients.data(), length,
-          (u - static_cast<float>((cellU >> span) << span)) * reciprocal,
-          (v - static_cast<float>((cellV >> span) << span)) * reciprocal};
-}
-
-/// Value of a patch times the pixel's length, and the alpha given: four floats at `destination`.
-/// Horner in v, then (i0 + u^2 i2) + u (i1 + u^2 i3) over the powers of u, whatever the vector length.
-HWY_INLINE void applyPatch(const float* patch, float length, float u, float v, float alpha, float* destination) {
-  const float u2 = u * u;
-#if HWY_TARGET <= HWY_AVX3 && HWY_TARGET != HWY_SCALAR
-  const hn::FixedTag<float, 16> d;
-  const auto vs = hn::Set(d, v);
-  auto powers = hn::Load(d, patch + 48);
-  powers = hn::Add(hn::Mul(powers, vs), hn::Load(d, patch + 32));
-  powers = hn::Add(hn::Mul(powers, vs), hn::Load(d, patch + 16));
-  powers = hn::Add(hn::Mul(powers, vs), hn::Load(d, patch));
-  const hn::FixedTag<float, 8> d8;
-  const auto pair = hn::Add(hn::LowerHalf(d8, powers), hn::Mul(hn::UpperHalf(d8, powers), hn::Set(d8, u2)));
-  const hn::FixedTag<float, 4> d4;
-  const auto sum = hn::Add(hn::LowerHalf(d4, pair), hn::Mul(hn::UpperHalf(d4, pair), hn::Set(d4, u)));
-  hn::StoreU(hn::Mul(sum, hn::Set(d4, length)), d4, destination);
-#else
-  const hn::CappedTag<float, 4> d;
-  const auto vs = hn::Set(d, v);
-  for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
-    const auto power = [&](std::size_t i) {
-      auto value = hn::Load(d, patch + 48 + 4 * i + k);
-      value = hn::Add(hn::Mul(value, vs), hn::Load(d, patch + 32 + 4 * i + k));
-      value = hn::Add(hn::Mul(value, vs), hn::Load(d, patch + 16 + 4 * i + k));
-      return hn::Add(hn::Mul(value, vs), hn::Load(d, patch + 4 * i + k));
-    };
-    const auto even = hn::Add(power(0), hn::Mul(power(2), hn::Set(d, u2)));
-    const auto odd = hn::Add(power(1), hn::Mul(power(3), hn::Set(d, u2)));
-    const auto sum = hn::Add(even, hn::Mul(odd, hn::Set(d, u)));
-    hn::StoreU(hn::Mul(sum, hn::Set(d, length)), d, destination + k);
-  }
+/// Four vectors of whole pixels into one a channel, or back. Lanes are then not in the pixels' order, which matters to
+/// nothing here.
+HWY_INLINE void transpose([[maybe_unused]] V& x, [[maybe_unused]] V& y, [[maybe_unused]] V& z, [[maybe_unused]] V& w) {
+#if HWY_TARGET != HWY_SCALAR  // where a vector is one number already
+  const Float d;
+  const hn::Repartition<std::uint64_t, Float> pairs;
+  const auto xyLow = hn::BitCast(pairs, hn::InterleaveLower(d, x, y));
+  const auto xyHigh = hn::BitCast(pairs, hn::InterleaveUpper(d, x, y));
+  const auto zwLow = hn::BitCast(pairs, hn::InterleaveLower(d, z, w));
+  const auto zwHigh = hn::BitCast(pairs, hn::InterleaveUpper(d, z, w));
+  x = hn::BitCast(d, hn::InterleaveLower(pairs, xyLow, zwLow));
+  y = hn::BitCast(d, hn::InterleaveUpper(pairs, xyLow, zwLow));
+  z = hn::BitCast(d, hn::InterleaveLower(pairs, xyHigh, zwHigh));
+  w = hn::BitCast(d, hn::InterleaveUpper(pairs, xyHigh, zwHigh));
 #endif
-  destination[3] = alpha;
 }
 
-/// Places of one vector of pixels on the front face; `beyond` are those that lie on another.
+/// Pixels' places on a face: its coordinates halved (-0.5 ... 0.5), and 1.5 more than that, within [1, 2), whose
+/// mantissa is the cell of the finest grid.
 struct Places {
-  HWY_ALIGN std::array<std::int32_t, kMostLanes> patch;  ///< index
-  HWY_ALIGN std::array<float, kMostLanes> length;
-  HWY_ALIGN std::array<float, kMostLanes> u;
-  HWY_ALIGN std::array<float, kMostLanes> v;
+  V x;
+  V y;
+  V cellX;
+  V cellY;
+  V length;  ///< largest |p|
 };
 
-/// The same arithmetic as locate(), a vector at a time.
-HWY_INLINE hn::Mask<Float> locateOnFront(const Map& map, V r, V g, V b, Places& places) {
+HWY_INLINE Places placesOn(V px, V py, V length) {
+  const Float d;
+  const V halfReciprocal = hn::Div(hn::Set(d, 0.5F), hn::Max(length, hn::Set(d, kSmallest)));
+  const auto cell = [&](V coordinate) {
+    return hn::Min(hn::Max(hn::Add(coordinate, hn::Set(d, 1.5F)), hn::Set(d, 1.0F)), hn::Set(d, kBelowTwo));
+  };
+  const V x = hn::Mul(px, halfReciprocal);
+  const V y = hn::Mul(py, halfReciprocal);
+  return {x, y, cell(x), cell(y), length};
+}
+
+/// The patch of a cell of a face, given as in Places.
+inline const Map::Patch& patchOf(const Map& map, std::size_t face, float cellX, float cellY) {
+  const int rootBits = Map::kRootBits[face];
+  const int cellBits = rootBits + Map::kMaximumDepth;
+  const std::uint32_t cellMask = (1U << cellBits) - 1U;
+  const std::uint32_t column = std::bit_cast<std::uint32_t>(cellX) >> (kMantissaBits - cellBits) & cellMask;
+  const std::uint32_t row = std::bit_cast<std::uint32_t>(cellY) >> (kMantissaBits - cellBits) & cellMask;
+  const std::uint32_t root =
+      map.roots[map.faceOffset[face] + (row >> Map::kMaximumDepth << rootBits) + (column >> Map::kMaximumDepth)];
+  constexpr std::uint32_t kDepthMask = (1U << Map::kDepthBits) - 1U;
+  constexpr std::uint32_t kInRoot = (1U << Map::kMaximumDepth) - 1U;
+  const std::uint32_t depth = root & kDepthMask;
+  const std::uint32_t coarser = Map::kMaximumDepth - depth;
+  return map.patches[map.patchIndex[(root >> Map::kDepthBits) + ((row & kInRoot) >> coarser << depth) +
+                                    ((column & kInRoot) >> coarser)]];
+}
+
+/// Lanes that lie on a patch.
+HWY_INLINE Mask on(const Map::Patch& patch, const Places& places) {
   const Float d;
   const Int di;
-  const auto row = [&](std::size_t k) {
-    return dot(hn::Set(d, map.cubeFromRgb[3 * k]), hn::Set(d, map.cubeFromRgb[3 * k + 1]),
-               hn::Set(d, map.cubeFromRgb[3 * k + 2]), r, g, b);
-  };
-  const V px = row(0);
-  const V py = row(1);
-  const V pz = row(2);
-  const auto front = hn::And(hn::And(hn::Ge(pz, hn::Abs(px)), hn::Ge(pz, hn::Abs(py))), hn::Gt(pz, hn::Zero(d)));
-  const V length = hn::IfThenElse(front, pz, hn::Set(d, 1.0F));
-  const V half = hn::Set(d, 0.5F);
-  const V halfReciprocal = hn::Min(hn::Div(half, length), hn::Set(d, kLargest));
-  const auto scaled = [&](V p) {
-    const V coordinate = hn::Mul(hn::IfThenElseZero(front, p), halfReciprocal);
-    return hn::Mul(hn::Add(coordinate, half), hn::Set(d, static_cast<float>(kFrontCells)));
-  };
-  const auto cell = [&](V x) {
-    return hn::Min(hn::Max(hn::ConvertTo(di, x), hn::Zero(di)), hn::Set(di, kFrontCells - 1));
-  };
-  const V u = scaled(px);
-  const V v = scaled(py);
-  const I cellU = cell(u);
-  const I cellV = cell(v);
-  const I rootIndex = hn::Add(hn::ShiftLeft<kFrontRootBits>(hn::ShiftRight<Map::kMaximumDepth>(cellV)),
-                              hn::ShiftRight<Map::kMaximumDepth>(cellU));
-  const auto* roots = reinterpret_cast<const std::int32_t*>(map.roots.data() + map.faceOffset[Map::kFrontFace]);
-  const I root = hn::GatherIndex(di, roots, rootIndex);
-  const I depthMask = hn::Set(di, (1 << Map::kDepthBits) - 1);
-  const I depth = hn::And(root, depthMask);
-  const I deepest = hn::Set(di, Map::kMaximumDepth);
-  const I shift = hn::Sub(deepest, depth);
-  const I mask = hn::Set(di, (1 << Map::kMaximumDepth) - 1);
-  const I index =
-      hn::Add(hn::ShiftRight<Map::kDepthBits>(root),
-              hn::Add(hn::Shl(hn::Shr(hn::And(cellV, mask), shift), depth), hn::Shr(hn::And(cellU, mask), shift)));
-  const I entry = hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.patchIndex.data()), index);
-  const I span = hn::Sub(deepest, hn::And(entry, depthMask));
-  // 2^-span by its exponent bits.
-  const V reciprocal = hn::BitCast(d, hn::ShiftLeft<23>(hn::Sub(hn::Set(di, 127), span)));
-  const auto local = [&](V x, I c) {
-    return hn::Mul(hn::Sub(x, hn::ConvertTo(d, hn::Shl(hn::Shr(c, span), span))), reciprocal);
-  };
-  hn::Store(hn::ShiftRight<Map::kDepthBits>(entry), di, places.patch.data());
-  hn::Store(length, d, places.length.data());
-  hn::Store(local(u, cellU), d, places.u.data());
-  hn::Store(local(v, cellV), d, places.v.data());
-  return hn::Not(front);
+  const auto differ = [&](V cells, float corner) { return hn::BitCast(di, hn::Xor(cells, hn::Set(d, corner))); };
+  const auto bits = hn::Or(differ(places.cellX, patch.corner[0]), differ(places.cellY, patch.corner[1]));
+  return hn::RebindMask(d, hn::Lt(bits, hn::Set(di, static_cast<std::int32_t>(patch.extent))));
 }
 
-/// One vector of pixels.
-HWY_INLINE void applyVector(const Map& map, const float* source, float* destination) {
+struct Colours {
+  V red;
+  V green;
+  V blue;
+};
+
+/// Values of a patch times the pixels' lengths, where the mask says so.
+HWY_INLINE void applyPatch(const Map::Patch& patch, const Places& places, Mask mask, Colours& result) {
   const Float d;
-  V r;
-  V g;
-  V b;
-  V a;
-  hn::LoadInterleaved4(d, source, r, g, b, a);
-  // x * 0 is 0 for finite x only.
+  const V scale = hn::Set(d, patch.scale);
+  const V u = hn::Add(hn::Mul(places.x, scale), hn::Set(d, patch.offset[0]));
+  const V v = hn::Add(hn::Mul(places.y, scale), hn::Set(d, patch.offset[1]));
+  const auto channel = [&](std::size_t k) {
+    const auto term = [&](std::size_t i) { return hn::Set(d, patch.coefficients[3 * i + k]); };
+    const auto next = [](V sum, V x, V addend) { return hn::Add(hn::Mul(sum, x), addend); };
+    const V constant = next(next(next(term(3), u, term(2)), u, term(1)), u, term(0));
+    const V linear = next(next(next(term(7), u, term(6)), u, term(5)), u, term(4));
+    const V square = next(term(9), u, term(8));
+    const V cube = next(term(11), u, term(10));
+    return hn::Mul(next(next(next(cube, v, square), v, linear), v, constant), places.length);
+  };
+  result.red = hn::IfThenElse(mask, channel(0), result.red);
+  result.green = hn::IfThenElse(mask, channel(1), result.green);
+  result.blue = hn::IfThenElse(mask, channel(2), result.blue);
+}
+
+/// Colours beyond the front face are rare (strong negatives): one lane at a time.
+HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, Mask far, Colours& result) {
+  const Float d;
+  HWY_ALIGN std::array<std::array<float, kMostLanes>, 3> lanes;
+  hn::Store(px, d, lanes[0].data());
+  hn::Store(py, d, lanes[1].data());
+  hn::Store(pz, d, lanes[2].data());
+  for (std::intptr_t lane = hn::FindFirstTrue(d, far); lane >= 0; lane = hn::FindFirstTrue(d, far)) {
+    const auto at = static_cast<std::size_t>(lane);
+    const std::array<float, 3> p = {lanes[0][at], lanes[1][at], lanes[2][at]};
+    std::size_t axis = 2;
+    for (std::size_t k = 0; k < 2; ++k) {
+      axis = std::abs(p[k]) > std::abs(p[axis]) ? k : axis;
+    }
+    const Places places =
+        placesOn(hn::Set(d, p[(axis + 1) % 3]), hn::Set(d, p[(axis + 2) % 3]), hn::Set(d, std::abs(p[axis])));
+    const Mask own = hn::RebindMask(d, hn::Eq(hn::Iota(Int(), 0), hn::Set(Int(), static_cast<std::int32_t>(lane))));
+    applyPatch(patchOf(map, 2 * axis + (p[axis] > 0.0F ? 0 : 1), hn::GetLane(places.cellX), hn::GetLane(places.cellY)),
+               places, own, result);
+    far = hn::AndNot(own, far);
+  }
+}
+
+/// A vector of pixels of which some are still to be looked up.
+struct Pending {
+  Places places;
+  Mask todo;  ///< those
+  Colours result;
+  V alpha;
+  float* destination;
+};
+
+HWY_INLINE void store(Colours colours, V alpha, float* destination) {
+  const Float d;
+  const std::size_t lanes = hn::Lanes(d);
+  transpose(colours.red, colours.green, colours.blue, alpha);
+  hn::StoreU(colours.red, d, destination);
+  hn::StoreU(colours.green, d, destination + lanes);
+  hn::StoreU(colours.blue, d, destination + 2 * lanes);
+  hn::StoreU(alpha, d, destination + 3 * lanes);
+}
+
+/// Begins a vector of pixels: stores it, or leaves it pending and returns true.
+HWY_INLINE bool begin(const Map& map, const float* source, float* destination, Pending& pending) {
+  const Float d;
+  const std::size_t lanes = hn::Lanes(d);
+  V r = hn::LoadU(d, source);
+  V g = hn::LoadU(d, source + lanes);
+  V b = hn::LoadU(d, source + 2 * lanes);
+  V a = hn::LoadU(d, source + 3 * lanes);
+  transpose(r, g, b, a);
   const V zero = hn::Zero(d);
-  const auto finite = hn::Eq(hn::Add(hn::Add(hn::Mul(r, zero), hn::Mul(g, zero)), hn::Mul(b, zero)), zero);
-  auto linear = map.linearNormalCount == 0 ? hn::Lt(zero, zero) : finite;
+  // x * 0 is 0 for finite x only.
+  const Mask finite = hn::Eq(hn::Add(hn::Add(hn::Mul(r, zero), hn::Mul(g, zero)), hn::Mul(b, zero)), zero);
+  V inside = map.linearNormalCount == 0 ? hn::Set(d, -1.0F) : zero;
   const float* normal = map.linearNormals.data();
   for (int k = 0; k < map.linearNormalCount; ++k, normal += 3) {
-    linear = hn::And(linear,
-                     hn::Ge(dot(hn::Set(d, normal[0]), hn::Set(d, normal[1]), hn::Set(d, normal[2]), r, g, b), zero));
+    inside = hn::Min(inside, dot(normal, r, g, b));
   }
-  const float* m = map.linearMatrix.data();
-  const auto row = [&](int k) {
-    return dot(hn::Set(d, m[3 * k]), hn::Set(d, m[3 * k + 1]), hn::Set(d, m[3 * k + 2]), r, g, b);
-  };
+  const Mask linear = hn::And(finite, hn::Ge(inside, zero));
   // What is not finite stays as it is.
-  hn::StoreInterleaved4(hn::IfThenElse(linear, row(0), r), hn::IfThenElse(linear, row(1), g),
-                        hn::IfThenElse(linear, row(2), b), a, d, destination);
-  const auto rest = hn::AndNot(linear, finite);
+  const float* matrix = map.linearMatrix.data();
+  Colours result{hn::IfThenElse(linear, dot(matrix, r, g, b), r), hn::IfThenElse(linear, dot(matrix + 3, r, g, b), g),
+                 hn::IfThenElse(linear, dot(matrix + 6, r, g, b), b)};
+  const Mask rest = hn::AndNot(linear, finite);
   if (hn::AllFalse(d, rest)) {
-    return;
+    store(result, a, destination);
+    return false;
   }
-  Places places;
-  const auto beyond =
-      locateOnFront(map, hn::IfThenElseZero(rest, r), hn::IfThenElseZero(rest, g), hn::IfThenElseZero(rest, b), places);
-  HWY_ALIGN std::array<float, kMostLanes> alphas;
-  hn::Store(a, d, alphas.data());
-  HWY_ALIGN std::array<std::uint8_t, 8> restBits{};
-  HWY_ALIGN std::array<std::uint8_t, 8> beyondBits{};
-  hn::StoreMaskBits(d, rest, restBits.data());
-  hn::StoreMaskBits(d, hn::And(rest, beyond), beyondBits.data());
-  unsigned todo = restBits[0] | static_cast<unsigned>(restBits[1]) << 8U;
-  const unsigned far = beyondBits[0] | static_cast<unsigned>(beyondBits[1]) << 8U;
-  for (; todo != 0; todo &= todo - 1U) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(todo));
-    float* pixel = destination + 4 * lane;
-    if ((far >> lane & 1U) == 0U) {
-      const auto patch = static_cast<std::size_t>(places.patch[lane]);
-      applyPatch(map.patches[patch].coefficients.data(), places.length[lane], places.u[lane], places.v[lane],
-                 alphas[lane], pixel);
-    } else {
-      const std::array<float, 3> rgb = {pixel[0], pixel[1], pixel[2]};  // still the source's
-      const Place place = locate(map, rgb.data());
-      applyPatch(place.patch, place.length, place.u, place.v, alphas[lane], pixel);
-    }
+  const float* cube = map.cubeFromRgb.data();
+  const V px = dot(cube, r, g, b);
+  const V py = dot(cube + 3, r, g, b);
+  const V pz = dot(cube + 6, r, g, b);
+  const Mask front = hn::Ge(pz, hn::Max(hn::Abs(px), hn::Abs(py)));
+  const Mask far = hn::AndNot(front, rest);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, far))) {
+    applyFar(map, px, py, pz, far, result);
+  }
+  pending = {placesOn(px, py, pz), hn::And(rest, front), result, a, destination};
+  return true;
+}
+
+/// Looks up what is left and stores the vector.
+HWY_INLINE void finish(const Map& map, const Pending& pending) {
+  const Float d;
+  HWY_ALIGN std::array<float, kMostLanes> cellX;
+  HWY_ALIGN std::array<float, kMostLanes> cellY;
+  hn::Store(pending.places.cellX, d, cellX.data());
+  hn::Store(pending.places.cellY, d, cellY.data());
+  Colours result = pending.result;
+  Mask todo = pending.todo;
+  for (std::intptr_t lane = hn::FindFirstTrue(d, todo); lane >= 0; lane = hn::FindFirstTrue(d, todo)) {
+    const auto first = static_cast<std::size_t>(lane);
+    const Map::Patch& patch = patchOf(map, Map::kFrontFace, cellX[first], cellY[first]);
+    const Mask same = on(patch, pending.places);
+    applyPatch(patch, pending.places, hn::And(todo, same), result);
+    todo = hn::AndNot(same, todo);
+  }
+  store(result, pending.alpha, pending.destination);
+}
+
+/// Brings the pixels from `pixel` on, a vector of them, near: the processor does not see that far by itself.
+HWY_INLINE void prefetch(const float* source, const float* destination, std::size_t pixel, std::size_t pixelCount) {
+  constexpr std::size_t kFloatsPerLine = 16;
+  const std::size_t end = std::min(4 * (pixel + hn::Lanes(Float())), 4 * pixelCount);
+  for (std::size_t i = 4 * pixel; i < end; i += kFloatsPerLine) {
+    hwy::Prefetch(source + i);
+    hwy::Prefetch(destination + i);
   }
 }
 
 void applyMap(const Map& map, const float* source, float* destination, std::size_t pixelCount) {
-  const Float d;
-  const std::size_t lanes = hn::Lanes(d);
+  const std::size_t lanes = hn::Lanes(Float());
+  // A vector's way through the table is longer than a processor looks ahead: two take each half of it side by side.
+  constexpr std::size_t kTogether = 2;
+  std::array<Pending, kTogether> pending;
   std::size_t pixel = 0;
-  for (; pixel + lanes <= pixelCount; pixel += lanes) {
-    applyVector(map, source + 4 * pixel, destination + 4 * pixel);
+  while (pixel + lanes <= pixelCount) {
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < kTogether && pixel + lanes <= pixelCount; ++k, pixel += lanes) {
+      prefetch(source, destination, pixel + kPrefetchedPixels, pixelCount);
+      count += begin(map, source + 4 * pixel, destination + 4 * pixel, pending[count]) ? 1 : 0;
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      finish(map, pending[k]);
+    }
   }
   if (pixel < pixelCount) {
     std::array<float, 4 * kMostLanes> padded{};
     std::copy(source + 4 * pixel, source + 4 * pixelCount, padded.begin());
-    applyVector(map, padded.data(), padded.data());
+    if (begin(map, padded.data(), padded.data(), pending[0])) {
+      finish(map, pending[0]);
+    }
     std::copy_n(padded.begin(), 4 * (pixelCount - pixel), destination + 4 * pixel);
   }
 }

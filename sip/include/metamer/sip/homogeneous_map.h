@@ -16,9 +16,9 @@ namespace metamer::sip {
 /// The transform is homogeneous of degree one, so it is known everywhere once it is known on the directions of RGB
 /// space. Directions are the faces of a cube in coordinates `p = cubeFromRgb * rgb`: a pixel is its largest |p| times
 /// a point of a face. Each face is a grid of root cells, each root cell a dense table of patches 2^depth by 2^depth.
-/// A patch is bicubic in the face's two coordinates, built from the transform's exact values and derivatives at its
-/// corners and checked between them. Where the transform is one matrix (no band clamped: most natural colours), the
-/// kernel skips the table and applies that matrix.
+/// A patch is a cubic (Adini's element) in the face's two coordinates, built from the transform's exact values and
+/// derivatives at its corners and checked between them. Where the transform is one matrix (no band clamped: most
+/// natural colours), the kernel skips the table and applies that matrix.
 ///
 /// Plain buffers without pointers, ready to be copied to another device. Immutable after build.
 struct HomogeneousMap {
@@ -26,13 +26,19 @@ struct HomogeneousMap {
   static constexpr int kFrontFace = 4;  ///< +p[2]: every real colour; the others hold what is beyond all lights
   static constexpr int kDepthBits = 3;
   static constexpr int kMaximumDepth = 6;
-  static constexpr std::array<int, kFaceCount> kRootsPerSide = {8, 8, 8, 8, 32, 8};
+  static constexpr std::array<int, kFaceCount> kRootBits = {3, 3, 3, 3, 5, 3};  ///< log2 of a side's root cells
   /// What lies beyond all lights is continuous and bounded there, and needs no more.
   static constexpr std::array<int, kFaceCount> kDepthLimit = {2, 2, 2, 2, kMaximumDepth, 2};
-  /// For each power j of v (0 ... 3), for each power i of u (0 ... 3): red, green, blue, 0. In units of a pixel whose
-  /// largest |p| is 1; u, v run 0 ... 1 over the patch. Aligned to lines of cache: a row of v's is one load.
-  struct alignas(64) Patch {
-    std::array<float, 64> coefficients;
+  /// Twelve terms, each red, green, blue, in units of a pixel whose largest |p| is 1. Powers of u (0 ... 3) with v^0,
+  /// then with v^1; then (0, 1) with v^2 and with v^3: all that Adini's element has. (u, v), 0 ... 1 over the patch, is
+  /// scale * (x, y) + offset, where (x, y), -0.5 ... 0.5, are half the face coordinates.
+  struct Patch {
+    std::array<float, 36> coefficients;
+    float scale;
+    std::array<float, 2> offset;
+    /// 1.5 + x and 1.5 + y, within [1, 2), have the bits of `corner` but for those below `extent`, a power of two.
+    std::array<float, 2> corner;
+    std::uint32_t extent;
   };
   static constexpr std::size_t kMostLinearNormals = 8;
 
@@ -44,7 +50,7 @@ struct HomogeneousMap {
   bool identity = false;             ///< apply() copies
   std::vector<std::uint32_t> roots;  ///< face by face, row by row: start in patchIndex << kDepthBits | depth
   std::array<std::uint32_t, kFaceCount> faceOffset{};  ///< of a face's first root
-  std::vector<std::uint32_t> patchIndex;  ///< dense tables of the root cells: patch << kDepthBits | its level
+  std::vector<std::uint32_t> patchIndex;               ///< dense tables of the root cells
   std::vector<Patch> patches;
 
   /// What the build did.
