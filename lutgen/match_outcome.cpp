@@ -36,6 +36,7 @@ Json toJson(const MatchOutcome& outcome) {
   Json json;
   json["target"] = outcome.target;
   json["method"] = outcome.method;
+  json["weights"] = outcome.weights.empty() ? Json(nullptr) : Json(outcome.weights);
   json["observer"] = outcome.observer;
   json["reflectances"] = outcome.reflectances;
   json["emitters"] = outcome.emitters;
@@ -80,8 +81,9 @@ std::string reportOf(const MatchOutcome& outcome, const std::string& figure) {
   const std::vector<double> differences = differencesOf(outcome);
   const sip::DifferenceSummary summary = sip::summaryOf(differences);
   std::string text = "# " + outcome.target + " by " + std::to_string(outcome.emitters.size()) + " emitters\n\n";
-  text += formatted("Method %s, observer %s, materials %s. Residual %.6g of the target, condition number %.3g.\n",
-                    outcome.method.c_str(), outcome.observer.c_str(), outcome.reflectances.c_str(),
+  const std::string weights = outcome.weights.empty() ? "" : ", " + outcome.weights + " weights";
+  text += formatted("Method %s%s, observer %s, materials %s. Residual %.6g of the target, condition number %.3g.\n",
+                    outcome.method.c_str(), weights.c_str(), outcome.observer.c_str(), outcome.reflectances.c_str(),
                     outcome.match.relativeResidual, outcome.match.condition);
   if (outcome.spectralSimilarity) {
     text += formatted("Spectral similarity index (SSI) %.0f.\n", *outcome.spectralSimilarity);

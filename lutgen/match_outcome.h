@@ -18,6 +18,7 @@ namespace metamer::lutgen {
 struct MatchOutcome {
   std::string target;
   std::string method;
+  std::string weights;       ///< of mrm; empty for the others
   std::string observer;      ///< or what the camera's RGB is
   std::string reflectances;  ///< or where the charts are from
   std::vector<std::string> emitters;

@@ -175,6 +175,9 @@ void match(const MatchOptions& options) {
   MatchOutcome outcome = options.charts.empty() ? matchSpectra(options, library) : matchCharts(options, library);
   outcome.target = options.target;
   outcome.method = options.method;
+  if (sip::matchMethodFromName(options.method) == sip::MatchMethod::MetamericReflectance) {
+    outcome.weights = options.weights;
+  }
   addReachNotes(outcome);
   if (!options.figure.empty()) {
     writeFigure(outcome, library, options.figure);

@@ -86,6 +86,8 @@ class MatchTest(LutgenTest):
         made = sum(drive * (reflectances[18] * model(text)) @ eye for drive, text in zip(white["drives"], SETS["RGBW"]))
         np.testing.assert_allclose(made, reflectances[18] * light("A") @ eye, rtol=1e-9)
         self.assertIn("(r.png)", (self.folder / "r.md").read_text())
+        self.match(*seen, "--method", "mrm", "--weights", "relative", "--report", self.folder / "r.md")
+        self.assertIn("Method mrm, relative weights,", (self.folder / "r.md").read_text())
         self.assertFails("stage", "match", "--target", "target.csv", "--charts", *files, "--method", "sim", "--json",
                          "s.json", says=["sim", "needs spectra"])
 
@@ -107,6 +109,7 @@ class MatchTest(LutgenTest):
                 for method, one in found.items():
                     self.assertLessEqual(errors["mrm"], errors[method] * (1 + 1e-12), method)
                     self.assertLessEqual(found["perceptual"]["dE"]["mean"], one["dE"]["mean"] * (1 + 1e-12), method)
+                self.assertEqual([one["weights"] for one in found.values()], [None, None, "absolute", "perceptual"])
                 self.assertAlmostEqual(found["perceptual"]["residual"], errors["perceptual"], delta=1e-12)
                 residuals.append(found["mrm"]["residual"])
                 means.append(found["perceptual"]["dE"]["mean"])
