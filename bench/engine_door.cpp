@@ -34,7 +34,7 @@ std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
     return T(matrix[0]) * T(rgb[0]) + T(matrix[1]) * T(rgb[1]) + T(matrix[2]) * T(rgb[2]);
   };
   bool linear = map.linearNormalCount > 0;
-  for (int i = 0; i < map.linearNormalCount; ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(map.linearNormalCount); ++i) {
     linear = linear && row(map.linearNormals.data() + 3 * i) >= T(0);
   }
   if (linear) {
