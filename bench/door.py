@@ -32,6 +32,7 @@ class Door:
             "metamerEngine": (_HANDLE, [_TEXT, _TEXT, _INT, _TEXT, _DOUBLE]), "metamerEngineClose": (None, [_HANDLE]),
             "metamerEngineApply": (_DOUBLE, [_HANDLE, _HANDLE, _HANDLE, _SIZE]),
             "metamerEngineDiagnostics": (None, [_HANDLE, _HANDLE]),
+            "metamerObserverDiagnostics": (_INT, [_TEXT, _TEXT, _HANDLE]),
             "metamerEngineLargestGain": (_DOUBLE, [_HANDLE, _HANDLE, _SIZE]),
             "metamerKnown": (None, [_HANDLE, _TEXT, _TEXT, _HANDLE, _SIZE, _HANDLE, _HANDLE]),
             "metamerEngineFolds": (_DOUBLE, [_HANDLE, _HANDLE, _SIZE]),
@@ -69,6 +70,13 @@ class Door:
 
     def copy(self, source, destination):
         self.library.metamerCopy(_pointer(source), _pointer(destination), source.size // 4)
+
+    def observer_diagnostics(self, observer, light):
+        """Condition number, rank and gain of an observer under a light; None where the engine refuses them."""
+        three = np.empty(3)
+        if not self.library.metamerObserverDiagnostics(observer.encode(), light.encode(), _pointer(three)):
+            return None
+        return {"condition": three[0], "rank": int(three[1]), "matrix_gain": three[2]}
 
     def delta_e(self, handle, a, b):
         a, b = _rows(a), _rows(b)

@@ -159,6 +159,23 @@ extern "C" void metamerEngineDiagnostics(void* engine, double* three) {
   three[2] = diagnostics.matrixGain;
 }
 
+/// The same three for an observer of data/ under a light of data/, towards CIE 1931 under D65; false where the engine
+/// refuses the two.
+extern "C" int metamerObserverDiagnostics(const char* observer, const char* light, double* three) {
+  static const auto kLibrary = spectral::DataLibrary::openDefault();
+  try {
+    sip::Recipe recipe;
+    recipe.input.illuminant = light;
+    recipe.input.observer = observer;
+    recipe.output.illuminant = "D65";
+    sip::SpectralTransform transform(sip::resolve(recipe, kLibrary));
+    metamerEngineDiagnostics(&transform, three);
+    return 1;
+  } catch (const spectral::InputError&) {
+    return 0;
+  }
+}
+
 /// Largest gain (singular value of the derivative) over colours, over that of the linear branch.
 extern "C" double metamerEngineLargestGain(void* engine, const double* rgb, std::size_t count) {
   const auto* transform = static_cast<sip::SpectralTransform*>(engine);

@@ -29,17 +29,25 @@ extern "C" void ofxClose(void* session) {
   delete static_cast<Session*>(session);
 }
 
-/// Float RGBA pictures of the same size, row after row.
-extern "C" void ofxConnect(void* session, void* source, void* destination, int width, int height) {
+/// Float RGBA pictures of the same window, x1 ... x2 - 1 by y1 ... y2 - 1, each from its first pixel on with as many
+/// bytes from row to row, which may be negative.
+extern "C" void ofxConnectStrided(void* session, void* source, int sourceRowBytes, void* destination,
+                                  int destinationRowBytes, int x1, int y1, int x2, int y2) {
   OfxRectI& bounds = static_cast<Session*>(session)->bounds;
-  bounds = {0, 0, width, height};
+  bounds = {x1, y1, x2, y2};
   bare_host::Image image;
   image.bounds = bounds;
-  image.rowBytes = 16 * width;
+  image.rowBytes = sourceRowBytes;
   image.data = source;
   effectOf(session).connect("Source", image);
+  image.rowBytes = destinationRowBytes;
   image.data = destination;
   effectOf(session).connect("Output", image);
+}
+
+/// The same, row after row, from the origin.
+extern "C" void ofxConnect(void* session, void* source, void* destination, int width, int height) {
+  ofxConnectStrided(session, source, 16 * width, destination, 16 * width, 0, 0, width, height);
 }
 
 /// Sets a parameter as a user does: a menu by its option's name.

@@ -5,12 +5,16 @@ Everything written here comes from the JSON alone, so that pages and figures can
 """
 
 import argparse
+import hashlib
 import importlib
 import json
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import fronts  # noqa: E402
+import targets  # noqa: E402
 
 # Section: title, page of docs/ it stands on.
 SECTIONS = {
@@ -24,6 +28,8 @@ SECTIONS = {
     "matching": ("Matching shots: robust or accurate", "accuracy"),
     "validation": ("The loop closed", "accuracy"),
     "stability": ("Numerical stability", "accuracy"),
+    "compilers": ("Whatever compiled it, and however many threads", "accuracy"),
+    "compilers": ("Whatever compiled it, and however many threads", "accuracy"),
     "hard_cases": ("Hard cases", "accuracy"),
     "growth": ("How cost grows", "performance"),
     "ofx": ("The OFX plug-in beside OpenColorIO", "performance"),
@@ -45,11 +51,36 @@ def section_markdown(name, result, heading, pictures=None):
     return lines + ["", f"*{result['machine']}; OpenColorIO {result['ocio']}; script/bench --only {name}.*"]
 
 
-def write_plots(results, folder, prefix):
+def digest(figures):
+    """Of what a picture is drawn from."""
+    return hashlib.sha256(json.dumps(figures, sort_keys=True).encode()).hexdigest()
+
+
+def pictures(results):
+    """{name without prefix: (the figures it shows, what draws it to a path)}"""
+    found = {}
     for name in results:
         section = importlib.import_module(f"sections.{name}")
         if hasattr(section, "plot"):
-            section.plot(results[name]["figures"], folder / f"{prefix}{name}.png")
+            figures = results[name]["figures"]
+            found[f"{name}.png"] = (figures, lambda path, s=section, f=figures: s.plot(f, path))
+    if fronts.sources(results):
+        found[fronts.PICTURE] = (fronts.sources(results), lambda path: fronts.draw(results, path))
+    return found
+
+
+def write_plots(results, folder, prefix):
+    """Each picture says in its text "Figures" which figures it shows."""
+    from PIL import Image, PngImagePlugin
+
+    for name, (figures, draw) in pictures(results).items():
+        path = folder / f"{prefix}{name}"
+        draw(path)
+        text = PngImagePlugin.PngInfo()
+        text.add_text("Figures", digest(figures))
+        with Image.open(path) as picture:
+            picture.load()
+        picture.convert("RGB").save(path, pnginfo=text, optimize=True)
 
 
 def ordered(results):
@@ -62,18 +93,26 @@ def write(results, folder):
     lines = ["# Speed against error"]
     for name, result in results.items():
         lines += section_markdown(name, result, 2, "bench_")
+    lines += ["", *target_markdown(results, list(SECTIONS))]
     (folder / "bench.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
     write_plots(results, folder, "bench_")
+
+
+def target_markdown(results, sections):
+    return ["## Asked and reached", "", *targets.markdown(results, sections)]
 
 
 def page(results, name):
     """One page of docs/, as text."""
     title, opening = PAGES[name]
     lines = [f"# {title}", "", opening, "", "Written by bench/report.py from [bench.json](bench.json); "
-             "`script/bench` measures anew.", ]
+             "`script/bench` measures anew. At the end: [what was asked, and what is reached](#asked-and-reached)."]
+    if fronts.sources(results):
+        lines += ["", f"![The fronts](images/bench_{fronts.PICTURE})"]
     for section, result in ordered(results).items():
         if SECTIONS[section][1] == name:
             lines += section_markdown(section, result, 2, "images/bench_")
+    lines += ["", *target_markdown(results, [s for s, (_, where) in SECTIONS.items() if where == name])]
     return "\n".join(lines) + "\n"
 
 

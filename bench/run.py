@@ -42,7 +42,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=15, help="interleaved runs a median is taken of (default 15)")
     parser.add_argument("--out", type=Path, default=REPOSITORY / "out", help="folder of bench.json, bench.md and plots")
     arguments = parser.parse_args()
-    wanted = arguments.only or (["stability", "hard_cases"] if arguments.stability else list(report.SECTIONS))
+    wanted = arguments.only or (["stability", "compilers", "hard_cases"] if arguments.stability else list(report.SECTIONS))
     bin_folder = Path(os.environ.get("METAMER_BIN", REPOSITORY / "build/release/bin"))
     os.environ.setdefault("METAMER_DATA", str(REPOSITORY / "data"))
     library = bin_folder.parent / "lib" / "libmetamer_bench_door.so"

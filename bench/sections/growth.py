@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How cost grows: picture and cube size, recipes in a config, emitters, patches, threads. Exponents over the larger half,
-where what does not grow no longer shows."""
+"""How cost grows: picture and cube size, recipes in a config, emitters of a lamp and of a scene, patches, threads.
+
+Exponents over the larger half, where what does not grow no longer shows."""
 
 import subprocess
 import tempfile
@@ -95,8 +96,29 @@ def threads(context, folder):
     return interleaved_medians(calls, 3)
 
 
+def scene_emitters(context, folder):
+    """Small triangles that all light a wall; the whole program, reading the mesh too."""
+    generator = np.random.default_rng(6)
+    calls = {}
+    for count in (100, 1_000, 10_000, 100_000):
+        corners = generator.uniform([-2, 0, 0.5], [2, 3, 1], (count, 1, 3)) + 3e-3 * np.array([[0, 0, 0], [0, 1, 0], [1, 0, 0]])
+        lines = [f"v {a:.6f} {b:.6f} {c:.6f}" for a, b, c in corners.reshape(-1, 3)]
+        lines += [f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}" for i in range(count)]
+        (folder / f"many{count}.obj").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        scene = folder / f"many{count}.yaml"
+        scene.write_text("metamer_scene: 1\nfilm: {width: 48, height: 32}\n"
+                         "camera: {origin: [0, 1.5, 6], target: [0, 1.5, 0], up: [0, 1, 0], fov_x: 40}\n"
+                         "integrator: {max_depth: 2, wavelengths: 4}\nshapes:\n"
+                         "  - rectangle: {center: [0, 1.5, 0], half_u: [2, 0, 0], half_v: [0, 1.5, 0]}\n    diffuse: 0.5\n"
+                         f"  - mesh: many{count}.obj\n    emission: LED-B1\n", encoding="utf-8")
+        calls[count] = lambda scene=scene: command(context.bin_folder / "spectral_ref", "render", scene, "-o",
+                                                   folder / "many.exr", "--spp", 64)
+    return interleaved_medians(calls, 3)
+
+
 MEASURES = {"pixels of a picture": picture_size, "nodes of a cube": cube_size, "recipes in a config": recipes,
-            "emitters of a lamp (MRM)": emitters, "patches of a stage's chart": patches, "threads (exact engine)": threads}
+            "emitters of a lamp (MRM)": emitters, "emitters of a rendered scene": scene_emitters,
+            "patches of a stage's chart": patches, "threads (exact engine)": threads}
 
 
 def run(context):

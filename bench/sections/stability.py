@@ -12,11 +12,30 @@ from door import Engine, Map, targets, use_target
 ADVERSARIAL = 1_000_000
 
 
-def illuminants():
+def tables(group):
     manifest = json.loads((Path(os.environ["METAMER_DATA"]) / "manifest.json").read_text(encoding="utf-8"))
-    return [name for table in manifest["tables"]
-            if table["group"] == "illuminants" and table["quantity"] == "spectral power distribution"
+    return [table for table in manifest["tables"] if table["group"] == group]
+
+
+def illuminants():
+    return [name for table in tables("illuminants") if table["quantity"] == "spectral power distribution"
             for name in table["names"]]
+
+
+def observers(context):
+    """Every observer of data/ under every light: condition number, channels told apart."""
+    rows = []
+    for observer in (name for table in tables("observers") for name in table["names"]):
+        found = {light: context.door.observer_diagnostics(observer, light) for light in illuminants()}
+        seen = {light: d for light, d in found.items() if d}
+        ranked = sorted(seen, key=lambda light: seen[light]["condition"])
+        rows.append({"observer": observer, "least": seen[ranked[0]]["condition"],
+                     "median": seen[ranked[len(ranked) // 2]]["condition"], "largest": seen[ranked[-1]]["condition"],
+                     "worst_light": ranked[-1], "next_worst": seen[ranked[-2]]["condition"], "next_light": ranked[-2],
+                     "fewer_channels": [light for light in ranked if seen[light]["rank"] < 3],
+                     "refused": [light for light, d in found.items() if not d],
+                     "conditions": {light: round(d["condition"], 4) for light, d in seen.items()}})
+    return rows
 
 
 def lights(context):
@@ -62,6 +81,7 @@ def arithmetic(context):
         scale = np.abs(output[:, :3]).max(axis=1, keepdims=True).astype(np.float64)
         double, extended = table.evaluate(64, rgba), table.evaluate(80, rgba)
         for name, reference, value in (("float32 against double", double, output[:, :3]),
+                                       ("float32 against long double", extended, output[:, :3]),
                                        ("double against long double", extended, double)):
             difference = (np.abs(value - reference) / np.maximum(scale, 1e-300)).max(axis=1)
             rows.append({"pair": "->".join(pair), "what": name, "median": float(np.median(difference)),
@@ -90,24 +110,64 @@ def instruction_sets(context):
 
 
 def run(context):
-    return {"lights": lights(context), "arithmetic": arithmetic(context), "instruction_sets": instruction_sets(context)}
+    return {"lights": lights(context), "observers": observers(context), "arithmetic": arithmetic(context),
+            "instruction_sets": instruction_sets(context)}
+
+
+TABLE = ("| light | condition | channels | matrix gain | worst gain over it | p99 | max |",
+         "| --- | --- | --- | --- | --- | --- | --- |")
+
+
+def _light_row(r):
+    return (f"| {r['light']} | {r['condition']:.3g} | {r['rank']} | {r['matrix_gain']:.3g} "
+            f"| {r['gain_over_matrix']:.3g} | {r['p99']:.3f} | {r['max']:.2f} |")
+
+
+def _some(names):
+    """The last three, and how many there are."""
+    more = f"{len(names)}: …, " if len(names) > 3 else ""
+    return more + ", ".join(names[-3:]) or "none"
 
 
 def markdown(results):
     ranked = sorted((r for r in results["lights"] if "refused" not in r), key=lambda r: -r["condition"])
     lines = [f"{len(results['lights'])} lights as input, to D65. Condition number of the white-normalised weights; the channels "
              "told apart; gain of the linear branch and of the worst colour over it; error against 401 bands. The ten worst "
-             "and three ordinary ones:", "",
-             "| light | condition | channels | matrix gain | worst gain over it | p99 | max |",
-             "| --- | --- | --- | --- | --- | --- | --- |"]
+             "and three ordinary ones:", "", *TABLE]
     for r in ranked[:10] + [r for r in ranked if r["light"] in ("A", "D65", "FL11")]:
-        lines.append(f"| {r['light']} | {r['condition']:.3g} | {r['rank']} | {r['matrix_gain']:.3g} "
-                     f"| {r['gain_over_matrix']:.3g} | {r['p99']:.3f} | {r['max']:.2f} |")
+        lines.append(_light_row(r))
     refused = [r["light"] for r in results["lights"] if "refused" in r]
     lines += ["", "Refused, with a message: " + (", ".join(refused) or "none") + ".", "",
+              "<details><summary>All lights</summary>", "", *TABLE]
+    lines += [_light_row(r) for r in ranked]
+    lines += ["", "</details>", "",
+              f"Every observer of data/ under the {len(results['lights'])} lights: condition number, and the lights that leave it "
+              "fewer than three channels or none.", "",
+              "| observer | least | median | worst but one | worst | fewer than three channels under | refused |",
+              "| --- | --- | --- | --- | --- | --- | --- |"]
+    lines += [f"| {r['observer']} | {r['least']:.2f} | {r['median']:.2f} | {r['next_worst']:.3g} ({r['next_light']}) "
+              f"| {r['largest']:.3g} ({r['worst_light']}) | {_some(r['fewer_channels'])} | {_some(r['refused'])} |" for r in results["observers"]]
+    lines += ["",
               f"The kernel on {ADVERSARIAL:,} hard colours, difference relative to the pixel's largest value:", "",
               "| lights | | median | p99.99 | max | all finite |", "| --- | --- | --- | --- | --- | --- |"]
     lines += [f"| {r['pair']} | {r['what']} | {r['median']:.1e} | {r['p9999']:.1e} | {r['max']:.1e} | {r['finite']} |"
               for r in results["arithmetic"]]
     lines += ["", "Instruction sets, same bits asked:", "", "| instruction set | pixels | different |", "| --- | --- | --- |"]
     return lines + [f"| {r['target']} | {r['pixels']:,} | {r['different']} |" for r in results["instruction_sets"]]
+
+
+def plot(results, path):
+    """Every light: how far apart it tells three channels, against what that costs."""
+    from plotting import figure, save
+
+    rows = [r for r in results["lights"] if "refused" not in r and r["p99"] > 0]
+    drawing, axes = figure("gain of the linear branch", "condition number of CIE 1931 under the light")
+    points = axes.scatter([r["condition"] for r in rows], [r["matrix_gain"] for r in rows],
+                          c=[min(r["p99"], 1.5) for r in rows], s=18, label="lights of data/, to D65")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    for r in rows:
+        if r["condition"] > 6 or r["light"] in ("A", "FL11"):
+            axes.annotate(r["light"], (r["condition"], r["matrix_gain"]), fontsize=7)
+    drawing.colorbar(points, label="CIEDE2000, p99 of 251 bands against 401")
+    save(drawing, axes, path)

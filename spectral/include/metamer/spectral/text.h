@@ -32,8 +32,8 @@ std::string threeDigits(double value);
 /// With a comma and a space between.
 std::string joined(const std::vector<std::string>& words);
 
-/// A whole token as a number in decimal notation, independent of the locale. Empty where the token is anything else:
-/// text after the number, hexadecimal, "nan", "inf", out of the range of double.
+/// A whole token, white space round it aside, as a number in decimal notation, independent of the locale. Empty where
+/// the token is anything else: text after the number, hexadecimal, "nan", "inf", out of the range of double.
 std::optional<double> parseNumber(std::string_view token);
 
 /// True for "nan", "inf" and "infinity" with or without a sign: a number to other programs, refused here by name.

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What metamer sets out to hold, and what the benchmark measured: one table, so that nothing missed is left unsaid."""
+
+import math
+from dataclasses import dataclass
+from typing import Callable
+
+import defaults
+
+
+@dataclass(frozen=True)
+class Target:
+    """A bound on a figure of one section."""
+
+    section: str
+    what: str
+    sense: str  # "<=" or ">="
+    bound: float
+    figure: Callable  # of the section's figures; KeyError, IndexError or ValueError where it was not measured
+    reason: str = ""  # why it is not reached, where it is not
+
+    def measured(self, figures):
+        """The figure, or nothing where the section does not hold it."""
+        try:
+            return float(self.figure(figures))
+        except (KeyError, IndexError, ValueError, TypeError):
+            return None
+
+    def holds(self, value):
+        return value is not None and math.isfinite(value) and (value <= self.bound if self.sense == "<=" else value >= self.bound)
+
+
+def _largest(values):
+    """NaN where there is one among them."""
+    values = list(values)
+    return math.nan if any(math.isnan(value) for value in values) else max(values)
+
+
+def _least(values):
+    return -_largest(-value for value in values)
+
+
+def _kernel(least_of, candidate):
+    return lambda f: _least(least_of(row["candidates"][candidate]) for row in f["rows"])
+
+
+def _map_p99_share(f):
+    return _largest(row["candidates"]["metamer map"]["error"]["inside"]["p99"] / row["candidates"][cube]["error"]["inside"]["p99"]
+               for row in f["rows"] for cube in ("OCIO log + 33^3", "OCIO log + 33^3 + antilog"))
+
+
+def _map_error(statistic):
+    return lambda f: _largest(row["candidates"]["metamer map"]["error"]["all"][statistic] for row in f["rows"])
+
+
+def _cubes(f, kind, size, value):
+    return {r["pair"]: r[value] for r in f if r["kind"] == kind and r["size"] == size}
+
+
+def _cube_ratio(size):
+    """Fitted 33 over sampled of a size, the worst pair of lights."""
+    def figure(f):
+        fitted, sampled = _cubes(f, "fitted", 33, "p99"), _cubes(f, "sampled", size, "p99")
+        return _largest(fitted[pair] / sampled[pair] for pair in fitted)
+    return figure
+
+
+def _cube_seconds(kind, size):
+    return lambda f: _largest(_cubes(f, kind, size, "seconds").values())
+
+
+def _chain(statistic):
+    return lambda f: _largest(r["error"]["all"][statistic] for r in f if r["label"].startswith("chain 65,"))
+
+
+def _bands(statistic):
+    return lambda f: _largest(r[statistic] for r in f if r["bands"] == 251)
+
+
+def _solve(f):
+    return _largest(s["microseconds"] for s in f["solves"] if s["upper_bound"] and s["bands"] == 81)
+
+
+def _meng(f):
+    return f["meng_2015_microseconds"] / _largest(s["microseconds"] for s in f["solves"] if s["upper_bound"] and s["bands"] == 81)
+
+
+def _smooth_objects(f):
+    return _largest(s["beyond_noise"] for row in f for s in row["scenes"] if s["name"] == "smooth objects")
+
+
+def _ofx(peer):
+    return lambda f: _least(row["faster_than"][peer] for row in f["rows"])
+
+
+def _renderer(worst, *labels):
+    """The worst of the renderer's ratios with these labels."""
+    return lambda f: worst(f["ratios"][label] for label in labels)
+
+
+TABLE_COST = "a pixel off the linear cone gathers its patch's coefficients from a table: memory decides, not arithmetic"
+STEEP = "the transform is steep and kinked for dark saturated colours, and nodes a lattice apart cannot follow every kink"
+BUILD = "exact colours are computed until every patch holds its tolerance: tens of thousands of solves"
+NOISE = "next-event estimation is already near what is left of the noise at this time and size"
+
+TARGETS = (
+    Target("solver", "smoothest spectrum within 0 and 1, 81 bands, µs", "<=", 10, _solve),
+    Target("solver", "times as fast as colour-science's Meng 2015", ">=", 1e5, _meng),
+    Target("build", "building a map, slowest lights, s", "<=", 0.5, lambda f: _largest(r["seconds"] for r in f), BUILD),
+    Target("kernel", "map's speed over OCIO's log + 33³, least", ">=", 2.5,
+           _kernel(lambda c: c["map_is_faster_by"], "OCIO log + 33^3"), TABLE_COST),
+    Target("kernel", "map's speed over OCIO's log + 33³ + antilog, least", ">=", 4,
+           _kernel(lambda c: c["map_is_faster_by"], "OCIO log + 33^3 + antilog"), TABLE_COST),
+    Target("kernel", "map's p99 over the cubes', largest", "<=", 0.1, _map_p99_share),
+    Target("kernel", "map against converged, p99, largest", "<=", 0.1, _map_error("p99")),
+    Target("kernel", "map against converged, max, largest", "<=", 1.0, _map_error("max")),
+    Target("cube", "33³ fitted, s", "<=", 3, _cube_seconds("fitted", 33)),
+    Target("cube", "33³ sampled, s", "<=", 0.2, _cube_seconds("sampled", 33), "the map it is sampled from is most of it"),
+    Target("cube", "65³ written (sampled), s", "<=", 1, _cube_seconds("sampled", 65)),
+    Target("cube", "33³ fitted over sampled, p99, worst lights", "<=", 1 / 3, _cube_ratio(33), STEEP),
+    Target("cube", "33³ fitted over 65³ sampled, p99, worst lights", "<=", 1, _cube_ratio(65), STEEP),
+    Target("ofx", "UHD frames, speed over OCIO's log + 33³, least", ">=", 2.5, _ofx("OCIO log + 33^3"), TABLE_COST),
+    Target("ofx", "UHD frames, speed over OCIO's 3x3 matrix, least", ">=", 0.4, _ofx("OCIO 3x3 matrix")),
+    Target("ofx", "parameter change to first HD frame, ms", "<=", 150, lambda f: _largest(r["milliseconds"] for r in f["change"]),
+           "a new map is built first"),
+    Target("ofx", "memory grown from frame 100 to the last, MiB", "<=", 1,
+           lambda f: f["memory"]["after_all"] - f["memory"]["after_100"]),
+    Target("renderer", "guided over uniform at equal time, chart under spiky lamps and a red gel, least", ">=", 2,
+           _renderer(_least, "guided against uniform, equal time, chart under FL11",
+                     "guided against uniform, equal time, chart under HP1",
+                     "guided against uniform, equal time, chart under A, red gel"), NOISE),
+    Target("renderer", "guided over uniform at equal time, smooth lamps, least", ">=", 0.95,
+           _renderer(_least, "guided against uniform, equal time, chart under A, smooth",
+                     "guided against uniform, equal time, chart under D65, smooth"), NOISE),
+    Target("renderer", "ReSTIR over next-event estimation, LED wall of 32x18", ">=", 4,
+           _renderer(_least, "ReSTIR (lanes) against NEE, equal time, LED wall 32 x 18"), NOISE),
+    Target("renderer", "ReSTIR over next-event estimation, 10⁵ emitters", ">=", 10,
+           _renderer(_least, "ReSTIR (lanes) against NEE, equal time, 100000 emitters"), NOISE),
+    Target("renderer", "time × MSE over Mitsuba scalar_spectral's, chart, worst lamp", "<=", 1 / 3,
+           _renderer(_largest, "time x MSE against Mitsuba scalar_spectral, chart under A",
+                     "time x MSE against Mitsuba scalar_spectral, chart under FL11")),
+    Target("renderer", "peak memory, 1920×1080, guiding, ReSTIR, 16 bins, MiB", "<=", 2048,
+           _renderer(_largest, "peak memory in MiB, 1920 x 1080, guiding, ReSTIR, 16 bins")),
+    Target("transforms", "chain of 65 nodes, ±10 stops, D65 to A, HP1, FL11, p99, largest", "<=", 0.5, _chain("p99"), STEEP),
+    Target("transforms", "the same, max", "<=", 3, _chain("max"), STEEP),
+    Target("transforms", "cheaper choices that are more accurate than a default", "<=", 0, lambda f: len(defaults.beaten(f)),
+           "the default wants changing"),
+    Target("bands", "default 251 bands against converged, p99, largest", "<=", 0.1, _bands("p99"), "FL11's lines"),
+    Target("bands", "default 251 bands against converged, max, largest", "<=", 0.5, _bands("max"), "FL11's lines"),
+    Target("validation", "smooth objects beyond noise, mean CIEDE2000, largest", "<=", 0.1, _smooth_objects),
+    Target("stability", "kernel values that are not finite for finite colours", "<=", 0,
+           lambda f: sum(not r["finite"] for r in f["arithmetic"])),
+    Target("stability", "pixels that an instruction set changes", "<=", 0, lambda f: sum(r["different"] for r in f["instruction_sets"])),
+    Target("compilers", "values and files that another compiler changes", "<=", 0, lambda f: sum(r["different"] for r in f["rows"])),
+    Target("compilers", "values that threads or instruction sets change", "<=", 0,
+           lambda f: sum(r["different"] for r in f["within"])),
+    Target("hard_cases", "hard cases that do not come out as they should", "<=", 0, lambda f: sum(not r["as_it_should"] for r in f),
+           "see the table of hard cases"),
+)
+
+
+def _number(value):
+    return f"{value:,.0f}" if math.isfinite(value) and value == int(value) else f"{value:.3g}"
+
+
+def markdown(results, sections):
+    """Table of the targets of these sections."""
+    rows = [(t, t.measured(results[t.section]["figures"]) if t.section in results else None)
+            for t in TARGETS if t.section in sections]
+    reached = sum(t.holds(value) for t, value in rows)
+    unmeasured = sum(value is None for _, value in rows)
+    lines = [f"{reached} of {len(rows)} reached" + (f", {unmeasured} not measured" if unmeasured else "") + ".", "",
+             "| what | asked | figure | reached | why not |", "| --- | --- | --- | --- | --- |"]
+    for t, value in rows:
+        verdict = "not measured" if value is None else "yes" if t.holds(value) else "**no**"
+        shown = "" if value is None else _number(value)
+        lines.append(f"| {t.what} | {'≤' if t.sense == '<=' else '≥'} {_number(t.bound)} | {shown} | {verdict} "
+                     f"| {t.reason if verdict == '**no**' else ''} |")
+    return lines
