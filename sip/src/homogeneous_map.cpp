@@ -199,8 +199,9 @@ class Builder {
     // All exact: powers of two, and multiples of them.
     const std::array<float, 2> low = {static_cast<float>(u) / static_cast<float>(steps),
                                       static_cast<float>(v) / static_cast<float>(steps)};
-    patch.scale = static_cast<float>(steps / side);
-    patch.extent = (1U << (std::numeric_limits<float>::digits - 1)) / static_cast<std::uint32_t>(steps / side);
+    const int perUnit = steps / side;
+    patch.scale = static_cast<float>(perUnit);
+    patch.extent = (1U << (std::numeric_limits<float>::digits - 1)) / static_cast<std::uint32_t>(perUnit);
     for (std::size_t k = 0; k < 2; ++k) {
       patch.offset[k] = (0.5F - low[k]) * patch.scale;
       patch.corner[k] = 1.0F + low[k];
