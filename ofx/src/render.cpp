@@ -80,8 +80,11 @@ class WindowRenderer {
   }
 
   void row(int y) const {
-    for (int x = m_window.x1; x < m_window.x2; x += kChunk) {
-      chunk(x, y, std::min(kChunk, m_window.x2 - x));
+    // From memory to memory a row goes whole: the longer the span, the further the kernel asks for memory ahead.
+    const int step =
+        m_isDirect && isInside(m_window.x1, y, m_window.x2 - m_window.x1) ? m_window.x2 - m_window.x1 : kChunk;
+    for (int x = m_window.x1; x < m_window.x2; x += step) {
+      chunk(x, y, std::min(step, m_window.x2 - x));
     }
   }
 
@@ -91,18 +94,23 @@ class WindowRenderer {
     return reinterpret_cast<std::uintptr_t>(image.data) % kAlignment == 0 && image.rowBytes % kAlignment == 0;
   }
 
+  bool isInside(int x, int y, int count) const {
+    const PixelView& source = m_job.source;
+    return source.data != nullptr && source.containsRow(y) && x >= source.bounds.x1 && x + count <= source.bounds.x2;
+  }
+
+  /// @param count  at most kChunk, but where the pixels go straight from the host's memory to the host's
   void chunk(int x, int y, int count) const {
     const PixelView& source = m_job.source;
     const PixelView& output = m_job.output;
     const std::size_t floats = 4 * static_cast<std::size_t>(count);
-    const bool isInside =
-        source.data != nullptr && source.containsRow(y) && x >= source.bounds.x1 && x + count <= source.bounds.x2;
-    if (isInside && m_job.transform == nullptr && m_isWhole && source.format == output.format) {
+    const bool inside = isInside(x, y, count);
+    if (inside && m_job.transform == nullptr && m_isWhole && source.format == output.format) {
       // Copied code for code.
       std::memmove(output.at(x, y), source.at(x, y), static_cast<std::size_t>(count) * source.format.bytesPerPixel());
       return;
     }
-    if (m_isDirect && isInside) {
+    if (m_isDirect && inside) {
       const std::span<const float> from(reinterpret_cast<const float*>(source.at(x, y)), floats);
       const std::span<float> to(reinterpret_cast<float*>(output.at(x, y)), floats);
       transform(from.data(), to.data(), count);

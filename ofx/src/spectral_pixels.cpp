@@ -4,16 +4,32 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <functional>
 #include <utility>
 
 #include "signal_curve.h"
+#include "threads.h"
 
 namespace metamer::ofx {
+
+namespace {
+
+/// Not on the host's: those may be the very ones that wait for the map.
+void onOwnThreads(int count, const std::function<void(int)>& body) {
+  std::atomic<int> next = 0;
+  runWorkers(HostSuites{}, count, [&](int /*worker*/) {
+    for (int i = next++; i < count; i = next++) {
+      body(i);
+    }
+  });
+}
+
+}  // namespace
 
 const sip::HomogeneousMap& SpectralEngine::map() const {
   const std::lock_guard lock(m_mutex);
   if (!m_map) {
-    m_map = sip::buildHomogeneousMap(m_exact);
+    m_map = sip::buildHomogeneousMap(m_exact, sip::kDefaultMapTolerance, onOwnThreads);
   }
   return *m_map;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <unordered_map>
 
@@ -75,34 +76,54 @@ Eigen::Vector3d evaluate(const Adini& patch, double u, double v) {
   return (((patch[11] * u + patch[10]) * v + (patch[9] * u + patch[8])) * v + linear) * v + constant;
 }
 
-class Builder {
- public:
-  Builder(const SpectralTransform& transform, double tolerance)
-      : m_transform(transform),
-        m_tolerance(tolerance),
-        m_cubeFromRgb(cubeFromResponse() * transform.responseFromRgb()),
-        m_rgbFromCube(m_cubeFromRgb.inverse()),
-        m_metric(transform.space()) {}
+/// What all parts of a map are built from.
+struct Source {
+  Source(const SpectralTransform& given, double givenTolerance)
+      : transform(given),
+        tolerance(givenTolerance),
+        cubeFromRgb(cubeFromResponse() * given.responseFromRgb()),
+        rgbFromCube(cubeFromRgb.inverse()),
+        metric(given.space()) {}
 
-  Map build() {
-    m_map.identity = m_transform.isIdentity();
-    if (m_map.identity) {
-      return std::move(m_map);
-    }
-    Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(m_map.cubeFromRgb.data()) = m_cubeFromRgb.cast<float>();
-    Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(m_map.linearMatrix.data()) =
-        m_transform.unconstrainedMatrix().cast<float>();
-    addLinearCone();
-    for (int face = 0; face < Map::kFaceCount; ++face) {
-      m_map.faceOffset[static_cast<std::size_t>(face)] = static_cast<std::uint32_t>(m_map.roots.size());
-      const int side = 1 << Map::kRootBits[static_cast<std::size_t>(face)];
-      for (int j = 0; j < side; ++j) {
-        for (int i = 0; i < side; ++i) {
-          addRoot(face, i, j);
-        }
+  const SpectralTransform& transform;
+  double tolerance;
+  Eigen::Matrix3d cubeFromRgb;
+  Eigen::Matrix3d rgbFromCube;
+  PerceptualMetric metric;
+};
+
+/// Some rows of a face's root cells, with the patches they need. Built on its own, so that the threads that build the
+/// parts cannot change what comes out.
+class Part {
+ public:
+  Part(const Source& source, int face, int firstRow) : m_source(source), m_face(face), m_firstRow(firstRow) {}
+
+  static constexpr int kRows = 2;
+
+  void build() {
+    const int side = 1 << Map::kRootBits[static_cast<std::size_t>(m_face)];
+    for (int j = m_firstRow; j < m_firstRow + kRows; ++j) {
+      for (int i = 0; i < side; ++i) {
+        addRoot(i, j);
       }
     }
-    return std::move(m_map);
+    m_nodes = {};
+  }
+
+  /// Appends the part to a map, in the order of faces and rows.
+  void appendTo(Map& map) const {
+    const auto firstIndex = static_cast<std::uint32_t>(map.patchIndex.size());
+    const auto firstPatch = static_cast<std::uint32_t>(map.patches.size());
+    for (const std::uint32_t root : m_roots) {
+      map.roots.push_back(root + (firstIndex << Map::kDepthBits));
+    }
+    for (const std::uint32_t patch : m_patchIndex) {
+      map.patchIndex.push_back(patch + firstPatch);
+    }
+    map.patches.insert(map.patches.end(), m_patches.begin(), m_patches.end());
+    map.statistics.solves += m_statistics.solves;
+    map.statistics.patches += m_statistics.patches;
+    map.statistics.largestError = std::max(map.statistics.largestError, m_statistics.largestError);
   }
 
  private:
@@ -121,44 +142,28 @@ class Builder {
     std::uint32_t patch;
   };
 
-  void addLinearCone() {
-    const auto corners = inscribedPolygon(m_transform.linearConeCorners(), m_cubeFromRgb, Map::kMostLinearNormals);
-    if (corners.size() < 3) {
-      return;
-    }
-    m_map.linearNormalCount = static_cast<int>(corners.size());
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      Eigen::Vector3d normal = corners[i].cross(corners[(i + 1) % corners.size()]).normalized();
-      if (normal.sum() < 0.0) {  // neutral (1, 1, 1) is inside
-        normal = -normal;
-      }
-      Eigen::Map<Eigen::Vector3f>(m_map.linearNormals.data() + 3 * i) = normal.cast<float>();
-    }
-  }
-
   /// Position in units of half the finest cell, between two nodes close by (the same twice where there is but one).
-  const Node& node(int face, int u, int v, const Node& a, const Node& b) {
-    const std::uint64_t key = (static_cast<std::uint64_t>(face) << 40) | (static_cast<std::uint64_t>(u) << 20) |
-                              static_cast<std::uint64_t>(v);
+  const Node& node(int u, int v, const Node& a, const Node& b) {
+    const std::uint64_t key = (static_cast<std::uint64_t>(u) << 20) | static_cast<std::uint64_t>(v);
     const auto [place, isNew] = m_nodes.try_emplace(key);
     Node& made = place->second;
     if (!isNew) {
       return made;
     }
-    const int steps = 1 << (Map::kRootBits[static_cast<std::size_t>(face)] + Map::kMaximumDepth + 1);
-    const int axis = face / 2;
+    const int steps = 1 << (Map::kRootBits[static_cast<std::size_t>(m_face)] + Map::kMaximumDepth + 1);
+    const int axis = m_face / 2;
     Eigen::Vector3d cube;
-    cube[axis] = face % 2 == 0 ? 1.0 : -1.0;
+    cube[axis] = m_face % 2 == 0 ? 1.0 : -1.0;
     cube[(axis + 1) % 3] = 2.0 * u / steps - 1.0;
     cube[(axis + 2) % 3] = 2.0 * v / steps - 1.0;
-    const Eigen::Vector3d rgb = m_rgbFromCube * cube;
+    const Eigen::Vector3d rgb = m_source.rgbFromCube * cube;
     const ActiveSet guess = between(a.exact.active, b.exact.active);
-    made.exact = m_transform.linearise(rgb, &guess);
-    made.alongU = made.exact.matrix * m_rgbFromCube.col((axis + 1) % 3);
-    made.alongV = made.exact.matrix * m_rgbFromCube.col((axis + 2) % 3);
-    made.metric = m_metric.at(rgb, made.exact.value);
-    made.tolerance = m_transform.isFeasible(rgb) ? m_tolerance : kOutsideLeniency * m_tolerance;
-    ++m_map.statistics.solves;
+    made.exact = m_source.transform.linearise(rgb, &guess);
+    made.alongU = made.exact.matrix * m_source.rgbFromCube.col((axis + 1) % 3);
+    made.alongV = made.exact.matrix * m_source.rgbFromCube.col((axis + 2) % 3);
+    made.metric = m_source.metric.at(rgb, made.exact.value);
+    made.tolerance = m_source.transform.isFeasible(rgb) ? m_source.tolerance : kOutsideLeniency * m_source.tolerance;
+    ++m_statistics.solves;
     return made;
   }
 
@@ -191,93 +196,142 @@ class Builder {
 
   /// @param u, v, side  corner and side in units of 1 / steps of the face
   std::uint32_t store(const Adini& adini, int u, int v, int side, int steps) {
-    const auto index = static_cast<std::uint32_t>(m_map.patches.size());
-    Map::Patch& patch = m_map.patches.emplace_back();
+    const auto index = static_cast<std::uint32_t>(m_patches.size());
+    Map::Patch& patch = m_patches.emplace_back();
     for (std::size_t term = 0; term < adini.size(); ++term) {
       Eigen::Map<Eigen::Vector3f>(patch.coefficients.data() + 3 * term) = adini[term].cast<float>();
     }
     // All exact: powers of two, and multiples of them.
     const std::array<float, 2> low = {static_cast<float>(u) / static_cast<float>(steps),
                                       static_cast<float>(v) / static_cast<float>(steps)};
-    patch.scale = static_cast<float>(steps / side);
-    patch.extent = (1U << (std::numeric_limits<float>::digits - 1)) / static_cast<std::uint32_t>(steps / side);
+    const int perUnit = steps / side;
+    patch.scale = static_cast<float>(perUnit);
+    patch.extent = (1U << (std::numeric_limits<float>::digits - 1)) / static_cast<std::uint32_t>(perUnit);
     for (std::size_t k = 0; k < 2; ++k) {
       patch.offset[k] = (0.5F - low[k]) * patch.scale;
       patch.corner[k] = 1.0F + low[k];
     }
-    ++m_map.statistics.patches;
+    ++m_statistics.patches;
     return index;
   }
 
   /// Corner (u, v) and side of a cell in half finest cells.
-  void refine(int face, int u, int v, int side, int level, int i, int j, std::vector<Placed>& placed) {
-    const Node& first = node(face, u, v, *m_latest, *m_latest);
+  void refine(int u, int v, int side, int level, int i, int j, std::vector<Placed>& placed) {
+    const Node& first = node(u, v, *m_latest, *m_latest);
     m_latest = &first;
-    const Node& second = node(face, u + side, v, first, first);
-    const Node& third = node(face, u, v + side, first, first);
-    const Node& fourth = node(face, u + side, v + side, second, third);
-    const int steps = 1 << (Map::kRootBits[static_cast<std::size_t>(face)] + Map::kMaximumDepth + 1);
+    const Node& second = node(u + side, v, first, first);
+    const Node& third = node(u, v + side, first, first);
+    const Node& fourth = node(u + side, v + side, second, third);
+    const int steps = 1 << (Map::kRootBits[static_cast<std::size_t>(m_face)] + Map::kMaximumDepth + 1);
     const Adini patch = adiniPatch({&first, &second, &third, &fourth}, 2.0 * side / steps);
     const int half = side / 2;
     // The middle first: most patches that fail, fail there.
-    double worst = excess(patch, node(face, u + half, v + half, first, fourth), 0.5, 0.5);
-    const bool deepest = level == Map::kDepthLimit[static_cast<std::size_t>(face)];
+    double worst = excess(patch, node(u + half, v + half, first, fourth), 0.5, 0.5);
+    const bool deepest = level == Map::kDepthLimit[static_cast<std::size_t>(m_face)];
     if ((worst <= 1.0 && level < kEdgeCheckLevels) || (worst > 1.0 && !deepest)) {
       // Also the corners of the four parts, should there be any.
-      worst = std::max({worst, excess(patch, node(face, u + half, v, first, second), 0.5, 0.0),
-                        excess(patch, node(face, u, v + half, first, third), 0.0, 0.5),
-                        excess(patch, node(face, u + side, v + half, second, fourth), 1.0, 0.5),
-                        excess(patch, node(face, u + half, v + side, third, fourth), 0.5, 1.0)});
+      worst = std::max({worst, excess(patch, node(u + half, v, first, second), 0.5, 0.0),
+                        excess(patch, node(u, v + half, first, third), 0.0, 0.5),
+                        excess(patch, node(u + side, v + half, second, fourth), 1.0, 0.5),
+                        excess(patch, node(u + half, v + side, third, fourth), 0.5, 1.0)});
     }
     if (worst <= 1.0 || deepest) {
-      m_map.statistics.largestError = std::max(m_map.statistics.largestError, worst * m_tolerance);
+      m_statistics.largestError = std::max(m_statistics.largestError, worst * m_source.tolerance);
       placed.push_back({level, i, j, store(patch, u, v, side, steps)});
       return;
     }
     for (int dj = 0; dj < 2; ++dj) {
       for (int di = 0; di < 2; ++di) {
-        refine(face, u + di * half, v + dj * half, half, level + 1, 2 * i + di, 2 * j + dj, placed);
+        refine(u + di * half, v + dj * half, half, level + 1, 2 * i + di, 2 * j + dj, placed);
       }
     }
   }
 
-  void addRoot(int face, int i, int j) {
+  void addRoot(int i, int j) {
     constexpr int kSide = 1 << (Map::kMaximumDepth + 1);
     std::vector<Placed> placed;
-    refine(face, i * kSide, j * kSide, kSide, 0, 0, 0, placed);
+    refine(i * kSide, j * kSide, kSide, 0, 0, 0, placed);
     int depth = 0;
     for (const Placed& patch : placed) {
       depth = std::max(depth, patch.level);
     }
-    const auto first = static_cast<std::uint32_t>(m_map.patchIndex.size());
+    const auto first = static_cast<std::uint32_t>(m_patchIndex.size());
     const int side = 1 << depth;
-    m_map.patchIndex.resize(first + static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    m_patchIndex.resize(first + static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
     for (const Placed& patch : placed) {
       const int span = 1 << (depth - patch.level);
       for (int row = patch.j * span; row < (patch.j + 1) * span; ++row) {
         for (int column = patch.i * span; column < (patch.i + 1) * span; ++column) {
-          m_map.patchIndex[first + static_cast<std::size_t>(row * side + column)] = patch.patch;
+          m_patchIndex[first + static_cast<std::size_t>(row * side + column)] = patch.patch;
         }
       }
     }
-    m_map.roots.push_back((first << Map::kDepthBits) | static_cast<std::uint32_t>(depth));
+    m_roots.push_back((first << Map::kDepthBits) | static_cast<std::uint32_t>(depth));
   }
 
-  const SpectralTransform& m_transform;
-  double m_tolerance;
-  Eigen::Matrix3d m_cubeFromRgb;
-  Eigen::Matrix3d m_rgbFromCube;
-  PerceptualMetric m_metric;
-  Map m_map;
+  const Source& m_source;
+  int m_face;
+  int m_firstRow;
+  std::vector<std::uint32_t> m_roots;
+  std::vector<std::uint32_t> m_patchIndex;
+  std::vector<Map::Patch> m_patches;
+  Map::Statistics m_statistics;
   std::unordered_map<std::uint64_t, Node> m_nodes;
   Node m_none;  // guesses nothing
   const Node* m_latest = &m_none;
 };
 
+void addLinearCone(const Source& source, Map& map) {
+  const auto corners =
+      inscribedPolygon(source.transform.linearConeCorners(), source.cubeFromRgb, Map::kMostLinearNormals);
+  if (corners.size() < 3) {
+    return;
+  }
+  map.linearNormalCount = static_cast<int>(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    Eigen::Vector3d normal = corners[i].cross(corners[(i + 1) % corners.size()]).normalized();
+    if (normal.sum() < 0.0) {  // neutral (1, 1, 1) is inside
+      normal = -normal;
+    }
+    Eigen::Map<Eigen::Vector3f>(map.linearNormals.data() + 3 * i) = normal.cast<float>();
+  }
+}
+
 }  // namespace
 
-HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance) {
-  return Builder(transform, tolerance).build();
+HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance,
+                                   const ParallelFor& parallelFor) {
+  Map map;
+  map.identity = transform.isIdentity();
+  if (map.identity) {
+    return map;
+  }
+  const Source source(transform, tolerance);
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.cubeFromRgb.data()) = source.cubeFromRgb.cast<float>();
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.linearMatrix.data()) =
+      transform.unconstrainedMatrix().cast<float>();
+  addLinearCone(source, map);
+  std::deque<Part> parts;  // which hold pointers into themselves
+  std::uint32_t rootCount = 0;
+  for (int face = 0; face < Map::kFaceCount; ++face) {
+    const int side = 1 << Map::kRootBits[static_cast<std::size_t>(face)];
+    map.faceOffset[static_cast<std::size_t>(face)] = rootCount;
+    rootCount += static_cast<std::uint32_t>(side * side);
+    for (int row = 0; row < side; row += Part::kRows) {
+      parts.emplace_back(source, face, row);
+    }
+  }
+  parallelFor(static_cast<int>(parts.size()), [&](int part) { parts[static_cast<std::size_t>(part)].build(); });
+  for (const Part& part : parts) {
+    part.appendTo(map);
+  }
+  return map;
+}
+
+void inOrder(int count, const std::function<void(int)>& body) {
+  for (int i = 0; i < count; ++i) {
+    body(i);
+  }
 }
 
 }  // namespace metamer::sip

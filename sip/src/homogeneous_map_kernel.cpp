@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map's pixel kernel, compiled once per instruction set and chosen at run time (Highway).
 //
-// Every result is the same sequence of separate float32 multiplications and additions whatever the instruction set
-// and whichever pixels lie beside it, so neighbours, tails and machines cannot change it.
+// Every result is the same sequence of float32 operations whatever the instruction set and whichever pixels lie beside
+// it, so neighbours, tails and machines cannot change it.
 //
 // A vector of pixels takes the one matrix where that is exact. For the rest, neighbours mostly share a patch: the
 // patch of the first pixel left is evaluated for all that lie on it, its coefficients the same for every lane, until
@@ -42,10 +42,28 @@ constexpr int kMantissaBits = 23;
 /// How far ahead memory is asked for: 4 KiB.
 constexpr std::size_t kPrefetchedPixels = 256;
 
+/// a * b + c, rounded once.
+HWY_INLINE V fused(V a, V b, V c) {
+#if HWY_NATIVE_FMA
+  return hn::MulAdd(a, b, c);
+#else  // slowly, for processors of before 2013
+  const Float d;
+  HWY_ALIGN std::array<float, kMostLanes> x;
+  HWY_ALIGN std::array<float, kMostLanes> y;
+  HWY_ALIGN std::array<float, kMostLanes> z;
+  hn::Store(a, d, x.data());
+  hn::Store(b, d, y.data());
+  hn::Store(c, d, z.data());
+  for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    z[lane] = std::fma(x[lane], y[lane], z[lane]);
+  }
+  return hn::Load(d, z.data());
+#endif
+}
+
 HWY_INLINE V dot(const float* row, V x, V y, V z) {
   const Float d;
-  return hn::Add(hn::Add(hn::Mul(hn::Set(d, row[0]), x), hn::Mul(hn::Set(d, row[1]), y)),
-                 hn::Mul(hn::Set(d, row[2]), z));
+  return fused(hn::Set(d, row[2]), z, fused(hn::Set(d, row[1]), y, hn::Mul(hn::Set(d, row[0]), x)));
 }
 
 /// Four vectors of whole pixels into one a channel, or back. Lanes are then not in the pixels' order, which matters to
@@ -122,16 +140,15 @@ struct Colours {
 HWY_INLINE void applyPatch(const Map::Patch& patch, const Places& places, Mask mask, Colours& result) {
   const Float d;
   const V scale = hn::Set(d, patch.scale);
-  const V u = hn::Add(hn::Mul(places.x, scale), hn::Set(d, patch.offset[0]));
-  const V v = hn::Add(hn::Mul(places.y, scale), hn::Set(d, patch.offset[1]));
+  const V u = fused(places.x, scale, hn::Set(d, patch.offset[0]));
+  const V v = fused(places.y, scale, hn::Set(d, patch.offset[1]));
   const auto channel = [&](std::size_t k) {
     const auto term = [&](std::size_t i) { return hn::Set(d, patch.coefficients[3 * i + k]); };
-    const auto next = [](V sum, V x, V addend) { return hn::Add(hn::Mul(sum, x), addend); };
-    const V constant = next(next(next(term(3), u, term(2)), u, term(1)), u, term(0));
-    const V linear = next(next(next(term(7), u, term(6)), u, term(5)), u, term(4));
-    const V square = next(term(9), u, term(8));
-    const V cube = next(term(11), u, term(10));
-    return hn::Mul(next(next(next(cube, v, square), v, linear), v, constant), places.length);
+    const V constant = fused(fused(fused(term(3), u, term(2)), u, term(1)), u, term(0));
+    const V linear = fused(fused(fused(term(7), u, term(6)), u, term(5)), u, term(4));
+    const V square = fused(term(9), u, term(8));
+    const V cube = fused(term(11), u, term(10));
+    return hn::Mul(fused(fused(fused(cube, v, square), v, linear), v, constant), places.length);
   };
   result.red = hn::IfThenElse(mask, channel(0), result.red);
   result.green = hn::IfThenElse(mask, channel(1), result.green);

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <thread>
 
 #include "metamer/sip/error_protocol.h"
 #include "sip_fixture.h"
@@ -83,9 +84,21 @@ TEST(HomogeneousMapTest, CamerasTakeNoMoreThanEyes) {
   }
 }
 
-TEST(HomogeneousMapTest, BuildIsRepeatable) {
+TEST(HomogeneousMapTest, BuildIsTheSameOnManyThreads) {
   const SpectralTransform transform(specOf("D65", "HP1"));
-  const HomogeneousMap again = buildHomogeneousMap(transform);
+  const HomogeneousMap again =
+      buildHomogeneousMap(transform, kDefaultMapTolerance, [](int count, const std::function<void(int)>& body) {
+        std::vector<std::jthread> threads;
+        for (int thread = 0; thread < 3; ++thread) {
+          threads.emplace_back([&body, count, thread] {
+            for (int i = count - 1 - thread; i >= 0; i -= 3) {
+              body(i);
+            }
+          });
+        }
+      });
+  EXPECT_EQ(again.faceOffset, sodiumMap().faceOffset);
+  EXPECT_EQ(again.statistics.solves, sodiumMap().statistics.solves);
   EXPECT_EQ(again.patchIndex, sodiumMap().patchIndex);
   EXPECT_EQ(again.roots, sodiumMap().roots);
   ASSERT_EQ(again.patches.size(), sodiumMap().patches.size());

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -71,10 +72,18 @@ struct HomogeneousMap {
 /// Default tolerance of a map: what keeps its 99th percentile under a tenth of a CIEDE2000.
 inline constexpr double kDefaultMapTolerance = 0.09;
 
-/// Builds the map of a transform.
+/// Calls body(0) ... body(count - 1), in any order and on any threads, and returns when all have returned.
+using ParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
+
+/// One after another on this thread.
+void inOrder(int count, const std::function<void(int)>& body);
+
+/// Builds the map of a transform, the same whatever the threads.
 /// @param tolerance  CIEDE2000 at Y = 0.18, relative to the working white, at each patch's checked points; ten times as
 ///                   much beyond what reflectances can make. Patches at the greatest depth may exceed it
 ///                   (statistics.largestError says by how much).
-HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance = kDefaultMapTolerance);
+/// @param parallelFor  runs the parts of the map
+HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance = kDefaultMapTolerance,
+                                   const ParallelFor& parallelFor = inOrder);
 
 }  // namespace metamer::sip
