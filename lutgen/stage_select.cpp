@@ -167,6 +167,7 @@ void select(const SelectOptions& options) {
     }
   }
   std::vector<sip::SelectionCase> selectionCases;
+  selectionCases.reserve(cases.size());
   for (const Case& one : cases) {
     selectionCases.push_back(one.selection);
   }

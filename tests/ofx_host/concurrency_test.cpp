@@ -72,6 +72,7 @@ TEST(OfxConcurrency, SixtyFourStripsOfOneFrameAtOnce) {
   effect->connect("Output", strips.image());
   {
     std::vector<std::jthread> threads;
+    threads.reserve(64);
     for (int i = 0; i < 64; ++i) {
       threads.emplace_back([&, i] {
         const int width = (kBounds.x2 - kBounds.x1) / 64;

@@ -287,7 +287,7 @@ std::unique_ptr<Effect> Host::create(const std::string& plugin, const std::strin
   if (effect->createInstanceAction() != kOfxStatOK) {
     throw std::runtime_error("createInstance failed for " + plugin);
   }
-  made.release();
+  static_cast<void>(made.release());  // it is the same object, owned as an Effect from here on
   return std::unique_ptr<Effect>(effect);
 }
 
