@@ -14,6 +14,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from door import Door, Engine, Map, targets, use_target  # noqa: E402
+from hard.files import SCENE  # noqa: E402
 from sections.stability import adversarial  # noqa: E402
 
 # Lights, and the set of a prior where there is one.
@@ -25,6 +26,7 @@ BAKES = {f"{light}{suffix}": ("--illuminant-in", "D65", "--illuminant-out", ligh
          for suffix, options in ((".ctf", ("--size", "33")), (".clf", ("--size", "17")), (".cube", ("--size", "17")),
                                  (" sampled.cube", ("--size", "17", "--sampled")), (".spimtx.ctf", ("--tolerance", "60")))}
 THREADS = (1, 2, 3)
+RENDERS = {"plain": (), "guided, resampled": ("--guiding", "on", "--restir", "lanes")}
 RECIPE = "metamer: 1\nname: t\nspace: ACEScg\ninput: {illuminant: D65}\noutput: {illuminant: HP1}\n"
 
 
@@ -64,6 +66,14 @@ def main():
         subprocess.run([bin_folder / "lutgen", "apply", recipe, picture, folder / "out.tif", "--threads", str(threads)],
                        check=True, stdout=subprocess.DEVNULL)
         arrays[f"threads/{threads}"] = imageio.imread(folder / "out.tif")
+    import OpenEXR
+
+    (folder / "scene.yaml").write_text(SCENE.replace("illuminant: A", "illuminant: FL11"))
+    for name, options in RENDERS.items():
+        subprocess.run([bin_folder / "spectral_ref", "render", folder / "scene.yaml", "-o", folder / "render.exr", "--spp", "16",
+                        *options], check=True, stdout=subprocess.DEVNULL)
+        channels = OpenEXR.File(str(folder / "render.exr"), separate_channels=True).channels()
+        arrays[f"render/{name}"] = np.dstack([channels[c].pixels for c in "RGB"])
     np.savez(folder / "figures.npz", **arrays)
 
 

@@ -10,9 +10,10 @@ from pathlib import Path
 import numpy as np
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-TARGETS = ("lutgen", "metamer_bench_door")
+TARGETS = ("lutgen", "metamer_bench_door", "spectral_ref")
 KINDS = {"exact": "exact engine, double", "map": "map kernel, float32, every instruction set", "file": "baked files",
-         "certificate": "their certificates", "threads": "lutgen apply, 1, 2 and 3 threads"}
+         "certificate": "their certificates", "threads": "lutgen apply, 1, 2 and 3 threads",
+         "render": "spectral_ref, float32: plain, and guided and resampled"}
 
 
 def build_clang():
@@ -81,6 +82,9 @@ def markdown(results):
                      f"| {f'{max(largest):.1e}' if largest else ''} |")
     named = [r["what"].split("/", 1)[1] for r in results["rows"] if r["largest"] is None and r["different"]
              and r["what"].startswith("file/")]
+    renders = [r["what"].split("/", 1)[1] for r in results["rows"] if r["what"].startswith("render/") and r["different"]]
+    if renders:
+        lines += ["", "Renders with other values: " + ", ".join(renders) + "."]
     if named:
         lines += ["", "Files with other bytes: " + ", ".join(named) + "."]
     lines += ["", "Within one build, against the first thread count or instruction set:", "",
