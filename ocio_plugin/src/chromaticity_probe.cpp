@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "chromaticity_probe.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "metamer/spectral/colorimetry.h"
 #include "perceptual_form.h"
@@ -15,6 +17,9 @@ constexpr double kLuminance = 0.18;
 /// Deviation of coordinates that the metric is taken by, and of the plane's that areas are.
 constexpr double kStep = 1e-3;
 constexpr double kAreaStep = 1e-5;
+/// The ring: its part of the way to the border, which is found by halving.
+constexpr double kRingPart = 0.97;
+constexpr int kHalvings = 40;
 
 }  // namespace
 
@@ -68,6 +73,28 @@ double ChromaticityProbe::error(const Answer& answer, const Eigen::Vector3d& val
   const double error = spectral::deltaE2000(spectral::lab(m_xyzFromRgb * answer.out, m_white),
                                             spectral::lab(m_xyzFromRgb * out, m_white));
   return std::isfinite(error) ? error : 0.0;
+}
+
+std::vector<Eigen::Vector2d> ChromaticityProbe::ring(int count) const {
+  const Eigen::Matrix3d rgbFromXyz = m_xyzFromRgb.inverse();
+  const Eigen::Vector2d white = spectral::chromaticity(m_white);
+  std::vector<Eigen::Vector2d> points;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2.0 * std::numbers::pi * (k + 0.5) / count;
+    const auto colourAlong = [&](double part) -> Eigen::Vector3d {
+      return rgbFromXyz * spectral::xyzFromChromaticity(
+                              white + part * Eigen::Vector2d(std::cos(angle), std::sin(angle)), kLuminance);
+    };
+    double inside = 0.0;
+    double outside = 1.0;
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      const double middle = 0.5 * (inside + outside);
+      const bool isAbove = white.y() + middle * std::sin(angle) > 1e-6;
+      (isAbove && m_plane.isFeasible(colourAlong(middle)) ? inside : outside) = middle;
+    }
+    points.emplace_back(m_plane.input.coordinates(colourAlong(kRingPart * inside)).head<2>());
+  }
+  return points;
 }
 
 double ChromaticityProbe::xyArea(const Eigen::Vector2d& point, double area) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "chromaticity_plane.h"
 
@@ -31,6 +32,10 @@ class ChromaticityProbe {
   Eigen::Matrix3d metric(const Answer& answer) const;
   /// CIEDE2000 in full of another value in place of the answer's.
   double error(const Answer& answer, const Eigen::Vector3d& value) const;
+
+  /// Points close to the border of what reflectances can make, as the error protocol has them: 97 % of the way from
+  /// white, at even angles of the CIE xy diagram.
+  std::vector<Eigen::Vector2d> ring(int count) const;
 
   /// Area in the CIE xy diagram of a small area of the plane.
   double xyArea(const Eigen::Vector2d& point, double area) const;

@@ -17,12 +17,19 @@ constexpr double kOutsideWeight = 1e-3;
 constexpr int kProbesPerSide = 129;
 /// Samples along a side of a cell.
 constexpr int kSamplesPerSide = 4;
+/// Samples of the ring close to the border for each tick, and their share against all others together: about that among
+/// the error protocol's probes, and half as much again because its largest errors lie there.
+constexpr int kRingPerTick = 16;
+constexpr double kRingShare = 0.14;
 /// Times that the ticks are moved toward what errs; rounds of weighted least squares for each, and at the end.
 constexpr int kMoves = 5;
 constexpr int kRoundsOfAMove = 2;
 constexpr int kRounds = 5;
-/// A sample's squared weight grows with its squared error, from this part of the 99th percentile to all of it.
+/// A sample's weight grows with its squared error, from this part of the 99th percentile to a little more than all of
+/// it. Beyond it falls off again, to a point: what is out of reach anyhow is not to spoil the rest.
 constexpr double kLeastPart = 0.3;
+constexpr double kWithinReach = 1.2;
+constexpr double kOutOfReach = 3.0;
 constexpr double kQuantile = 0.99;
 /// Errors beyond this are weighed by what they really are, within a factor, where the quadratic form misjudges them.
 constexpr double kSmall = 0.05;
@@ -58,6 +65,25 @@ struct TableSample {
   double area = 0;  ///< in CIE xy: its share among the error protocol's probes
 };
 
+/// Adds the ring to samples that are spread over the whole plane.
+void addRing(std::vector<TableSample>& samples, int size, const ChromaticityProbe& probe) {
+  double total = 0.0;
+  for (const auto& sample : samples) {
+    total += sample.exact.isFeasible ? sample.area : 0.0;
+  }
+  const std::vector<Eigen::Vector2d> ring = probe.ring(kRingPerTick * size);
+  for (const Eigen::Vector2d& point : ring) {
+    const auto answer = probe.askFeasible(point);
+    if (answer.isUsable) {
+      const Eigen::Matrix3d metric = probe.metric(answer);
+      if (metric.allFinite()) {
+        samples.push_back(
+            {{point, answer.value, metric}, answer, kRingShare * total / static_cast<double>(ring.size())});
+      }
+    }
+  }
+}
+
 std::vector<TableSample> takeSamples(const PlaneLattice& lattice, const ChromaticityProbe& probe) {
   const int side = kSamplesPerSide * (lattice.size() - 1);
   const auto width = [&](int axis, int k) {
@@ -88,6 +114,7 @@ std::vector<TableSample> takeSamples(const PlaneLattice& lattice, const Chromati
   for (const auto& row : rows) {
     samples.insert(samples.end(), row.begin(), row.end());
   }
+  addRing(samples, lattice.size(), probe);
   return samples;
 }
 
@@ -162,7 +189,9 @@ Errors fitNodes(PlaneLattice& lattice, const std::vector<TableSample>& samples, 
       const LatticeSample& sample = samples[k].fit;
       const Eigen::Vector3d deviation = lattice.at(sample.point) - sample.value;
       const double quadratic = std::sqrt(std::max(0.0, deviation.dot(sample.metric * deviation)));
-      const double part = std::clamp(errors.full[k] / errors.quantile, kLeastPart, 1.0);
+      const double ratio = errors.full[k] / errors.quantile;
+      const double excess = std::clamp(ratio, kWithinReach, kOutOfReach) / kWithinReach;
+      const double part = std::clamp(ratio, kLeastPart, 1.0) / (excess * excess);
       const double beyond =
           quadratic > kSmall ? std::clamp(errors.full[k] / quadratic, 1.0 / kMostBeyond, kMostBeyond) : 1.0;
       // Half way from the last weights, which keeps them from swinging.
