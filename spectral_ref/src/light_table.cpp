@@ -282,8 +282,9 @@ Eigen::Vector2f LightTable::onRectangle(const Emitter& emitter, std::uint32_t el
   }
   const auto width = static_cast<std::uint32_t>(emitter.picture->width);
   const auto height = static_cast<std::uint32_t>(emitter.picture->height);
+  const std::uint32_t row = element / width;
   return {(static_cast<float>(element % width) + u) / static_cast<float>(width),
-          1.0F - (static_cast<float>(element / width) + v) / static_cast<float>(height)};
+          1.0F - (static_cast<float>(row) + v) / static_cast<float>(height)};
 }
 
 LightSample LightTable::onArea(const Vec3& point, const Vec3& normal, float area, const Vec3& from) {
@@ -331,7 +332,8 @@ float LightTable::spherePdf(const Emitter& emitter, const Vec3& from) const {
 LightSample LightTable::inEnvironment(const Emitter& emitter, std::uint32_t element, const LightPoint& point) const {
   const auto width = static_cast<std::uint32_t>(emitter.picture->width);
   const auto column = static_cast<float>(element % width);
-  const auto row = static_cast<float>(element / width);
+  const std::uint32_t wholeRow = element / width;
+  const auto row = static_cast<float>(wholeRow);
   const auto height = static_cast<float>(emitter.picture->height);
   const float cosTop = std::cos(kPi * row / height);
   const float cosBottom = std::cos(kPi * (row + 1.0F) / height);
