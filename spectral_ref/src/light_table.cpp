@@ -84,7 +84,12 @@ LightTable::LightTable(const Scene& scene, const EmbreeScene& shapes) : m_sceneR
     emitter.cosBeam = cosine(light.beamDegrees);
     add(emitter, 1);
   }
-  m_choice = AliasTable(weights(scene));
+  std::vector<double> powers = worths(scene);
+  for (std::size_t entry = 0; entry < powers.size(); ++entry) {
+    const Emitter& emitter = m_emitters[m_emitterOfEntry[entry]];
+    powers[entry] *= powerExtent(emitter, static_cast<std::uint32_t>(entry) - emitter.first);
+  }
+  m_choice = AliasTable(powers);
 }
 
 void LightTable::add(const Emitter& emitter, std::size_t elements) {
@@ -146,54 +151,140 @@ void LightTable::addShapes(const Scene& scene, const EmbreeScene& shapes) {
   }
 }
 
-std::vector<double> LightTable::weights(const Scene& scene) const {
+/// What the radiance (point and spot lights: intensity) of each entry is worth.
+std::vector<double> LightTable::worths(const Scene& scene) const {
   spectral::DomainSamples luminance = spectral::DomainSamples::Zero();
   const auto curves = scene.film.observer.onDomain();
   luminance = (curves * scene.film.luminanceOfResponse).cwiseAbs();
   luminance /= std::max(luminance.sum(), std::numeric_limits<double>::min());
-  std::vector<double> worths;
+  std::vector<double> ofSpectrum;
   for (const spectral::DomainSamples& spectrum : scene.spectra) {
-    worths.push_back(worth(spectrum, luminance));
+    ofSpectrum.push_back(worth(spectrum, luminance));
   }
   std::vector<double> result(m_emitterOfEntry.size());
   for (std::size_t entry = 0; entry < result.size(); ++entry) {
     const Emitter& emitter = m_emitters[m_emitterOfEntry[entry]];
+    if (emitter.picture == nullptr) {
+      result[entry] = ofSpectrum[emitter.spectrum];
+      continue;
+    }
+    const std::size_t emitters = emitter.picture->emitters.size();
     const std::size_t element = entry - emitter.first;
-    double radiance = 0;
-    if (emitter.picture != nullptr) {
-      const std::size_t emitters = emitter.picture->emitters.size();
-      for (std::size_t k = 0; k < emitters; ++k) {
-        radiance +=
-            static_cast<double>(emitter.picture->drives[element * emitters + k]) * worths[emitter.picture->emitters[k]];
-      }
-    } else {
-      radiance = worths[emitter.spectrum];
+    for (std::size_t k = 0; k < emitters; ++k) {
+      result[entry] += static_cast<double>(emitter.picture->drives[element * emitters + k]) *
+                       ofSpectrum[emitter.picture->emitters[k]];
     }
-    double extent = 0;
-    switch (emitter.kind) {
-      case Kind::Rectangle:
-      case Kind::Sphere:
-        extent = static_cast<double>(kPi * emitter.area);
-        break;
-      case Kind::Mesh: {
-        const auto corner = corners(*emitter.mesh, element);
-        extent = static_cast<double>(kPi * 0.5F * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm());
-        break;
-      }
-      case Kind::Environment:
-        extent = static_cast<double>(kPi * m_sceneRadius * m_sceneRadius /
-                                     inEnvironment(emitter, static_cast<std::uint32_t>(element), {}).pdf);
-        break;
-      case Kind::Point:
-        extent = 4.0 * static_cast<double>(kPi);
-        break;
-      case Kind::Spot:
-        extent = 2.0 * static_cast<double>(kPi) * (1.0 - static_cast<double>(emitter.cosCone));
-        break;
-    }
-    result[entry] = radiance * extent;
   }
   return result;
+}
+
+/// Power of an element over its radiance or intensity.
+double LightTable::powerExtent(const Emitter& emitter, std::uint32_t element) const {
+  switch (emitter.kind) {
+    case Kind::Rectangle:
+    case Kind::Sphere:
+      return static_cast<double>(kPi * emitter.area);
+    case Kind::Mesh: {
+      const auto corner = corners(*emitter.mesh, element);
+      return static_cast<double>(kPi * 0.5F * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm());
+    }
+    case Kind::Environment:
+      return static_cast<double>(kPi * m_sceneRadius * m_sceneRadius / inEnvironment(emitter, element, {}).pdf);
+    case Kind::Point:
+      return 4.0 * static_cast<double>(kPi);
+    case Kind::Spot:
+      break;
+  }
+  return 2.0 * static_cast<double>(kPi) * (1.0 - static_cast<double>(emitter.cosCone));
+}
+
+/// Corners of a rectangle's element; a triangle's, the first one twice.
+std::array<Vec3, 4> LightTable::cornersOf(const Emitter& emitter, std::uint32_t element) const {
+  if (emitter.kind == Kind::Mesh) {
+    const auto corner = corners(*emitter.mesh, element);
+    return {corner[0], corner[1], corner[2], corner[0]};
+  }
+  std::array<Vec3, 4> result;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Eigen::Vector2f place = onRectangle(emitter, element, i % 2 == 0 ? 0.0F : 1.0F, i < 2 ? 0.0F : 1.0F);
+    result[i] = emitter.origin + emitter.edgeU * place.x() + emitter.edgeV * place.y();
+  }
+  return result;
+}
+
+LightBounds LightTable::boundsOf(const Emitter& emitter, std::uint32_t element) const {
+  LightBounds bounds;
+  bounds.intensity = 1.0F;
+  bounds.least = emitter.origin;
+  bounds.most = emitter.origin;
+  bounds.spread = kPi;
+  switch (emitter.kind) {
+    case Kind::Rectangle:
+    case Kind::Mesh: {
+      const auto corner = cornersOf(emitter, element);
+      bounds.least = corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]).cwiseMin(corner[3]);
+      bounds.most = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]).cwiseMax(corner[3]);
+      bounds.axis = emitter.normal;
+      bounds.intensity = emitter.area;
+      if (emitter.kind == Kind::Mesh) {
+        const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+        bounds.axis = normal.normalized();
+        bounds.intensity = 0.5F * normal.norm();
+      }
+      bounds.spread = 0.0F;
+      break;
+    }
+    case Kind::Sphere:
+      bounds.least -= Vec3::Constant(emitter.radius);
+      bounds.most += Vec3::Constant(emitter.radius);
+      bounds.intensity = kPi * emitter.radius * emitter.radius;
+      break;
+    case Kind::Environment: {
+      const LightSample middle = inEnvironment(emitter, element, {0, 0.5F, 0.5F});
+      bounds.isInfinite = true;
+      bounds.axis = middle.direction;
+      bounds.least = middle.direction;
+      bounds.most = middle.direction;
+      bounds.intensity = 1.0F / middle.pdf;
+      bounds.spread = 0.0F;
+      for (const float v : {0.0F, 0.5F, 1.0F}) {
+        const Vec3 corner = inEnvironment(emitter, element, {0, 0.0F, v}).direction;
+        bounds.spread = std::max(bounds.spread, std::acos(std::clamp(middle.direction.dot(corner), -1.0F, 1.0F)));
+      }
+      break;
+    }
+    case Kind::Point:
+      break;
+    case Kind::Spot:
+      bounds.axis = emitter.edgeU;
+      bounds.spread = std::acos(emitter.cosCone);
+      break;
+  }
+  return bounds;
+}
+
+std::vector<LightBounds> LightTable::bounds(const Scene& scene) const {
+  const std::vector<double> worth = worths(scene);
+  std::vector<LightBounds> result;
+  result.reserve(worth.size());
+  for (std::size_t entry = 0; entry < worth.size(); ++entry) {
+    const Emitter& emitter = m_emitters[m_emitterOfEntry[entry]];
+    result.push_back(boundsOf(emitter, static_cast<std::uint32_t>(entry) - emitter.first));
+    result.back().intensity *= static_cast<float>(worth[entry]);
+  }
+  return result;
+}
+
+/// Where a point of an element lies along the edges of its rectangle.
+Eigen::Vector2f LightTable::onRectangle(const Emitter& emitter, std::uint32_t element, float u, float v) {
+  if (emitter.picture == nullptr) {
+    return {u, v};
+  }
+  const auto width = static_cast<std::uint32_t>(emitter.picture->width);
+  const auto height = static_cast<std::uint32_t>(emitter.picture->height);
+  const std::uint32_t row = element / width;
+  return {(static_cast<float>(element % width) + u) / static_cast<float>(width),
+          1.0F - (static_cast<float>(row) + v) / static_cast<float>(height)};
 }
 
 LightSample LightTable::onArea(const Vec3& point, const Vec3& normal, float area, const Vec3& from) {
@@ -241,7 +332,8 @@ float LightTable::spherePdf(const Emitter& emitter, const Vec3& from) const {
 LightSample LightTable::inEnvironment(const Emitter& emitter, std::uint32_t element, const LightPoint& point) const {
   const auto width = static_cast<std::uint32_t>(emitter.picture->width);
   const auto column = static_cast<float>(element % width);
-  const auto row = static_cast<float>(element / width);
+  const std::uint32_t wholeRow = element / width;
+  const auto row = static_cast<float>(wholeRow);
   const auto height = static_cast<float>(emitter.picture->height);
   const float cosTop = std::cos(kPi * row / height);
   const float cosBottom = std::cos(kPi * (row + 1.0F) / height);
@@ -265,22 +357,16 @@ std::uint32_t LightTable::environmentElement(const Vec3& direction) const {
   return static_cast<std::uint32_t>(row * picture.width + column);
 }
 
-LightSample LightTable::sample(const LightPoint& point, const Vec3& from) const {
+LightSample LightTable::located(const LightPoint& point, const Vec3& from) const {
   const std::uint32_t index = m_emitterOfEntry[point.entry];
   const Emitter& emitter = m_emitters[index];
   const std::uint32_t element = point.entry - emitter.first;
   LightSample sample;
   switch (emitter.kind) {
     case Kind::Rectangle: {
-      float u = point.u;
-      float v = point.v;
-      if (emitter.picture != nullptr) {
-        const auto width = static_cast<std::uint32_t>(emitter.picture->width);
-        const auto height = static_cast<std::uint32_t>(emitter.picture->height);
-        u = (static_cast<float>(element % width) + u) / static_cast<float>(width);
-        v = 1.0F - (static_cast<float>(element / width) + v) / static_cast<float>(height);
-      }
-      sample = onArea(emitter.origin + emitter.edgeU * u + emitter.edgeV * v, emitter.normal, emitter.area, from);
+      const Eigen::Vector2f place = onRectangle(emitter, element, point.u, point.v);
+      sample = onArea(emitter.origin + emitter.edgeU * place.x() + emitter.edgeV * place.y(), emitter.normal,
+                      emitter.area, from);
       break;
     }
     case Kind::Sphere:
@@ -319,7 +405,6 @@ LightSample LightTable::sample(const LightPoint& point, const Vec3& from) const 
   }
   sample.emitter = index;
   sample.element = element;
-  sample.pdf *= m_choice.probability(point.entry);
   return sample;
 }
 
@@ -338,26 +423,22 @@ std::uint32_t LightTable::elementOf(const Hit& hit) const {
   return static_cast<std::uint32_t>(row * width + column);
 }
 
-float LightTable::pdf(const Hit& hit, const Vec3& from, const Vec3& direction) const {
+float LightTable::locatedPdf(const Hit& hit, const Vec3& from, const Vec3& direction) const {
   const Emitter& emitter = m_emitters[hit.emitter];
-  const std::uint32_t element = elementOf(hit);
-  const float choice = m_choice.probability(emitter.first + element);
   if (emitter.kind == Kind::Sphere) {
-    return choice * spherePdf(emitter, from);
+    return spherePdf(emitter, from);
   }
   float area = emitter.area;
   if (emitter.kind == Kind::Mesh) {
-    const auto corner = corners(*emitter.mesh, element);
+    const auto corner = corners(*emitter.mesh, elementOf(hit));
     area = 0.5F * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
   }
   const float cosine = -direction.dot(hit.normal);
-  return cosine > 0.0F ? choice * (hit.position - from).squaredNorm() / (cosine * area) : 0.0F;
+  return cosine > 0.0F ? (hit.position - from).squaredNorm() / (cosine * area) : 0.0F;
 }
 
-float LightTable::environmentPdf(const Vec3& direction) const {
-  const Emitter& emitter = m_emitters[m_environment];
-  const std::uint32_t element = environmentElement(direction);
-  return m_choice.probability(emitter.first + element) * inEnvironment(emitter, element, {}).pdf;
+float LightTable::locatedEnvironmentPdf(const Vec3& direction) const {
+  return inEnvironment(m_emitters[m_environment], environmentElement(direction), {}).pdf;
 }
 
 }  // namespace metamer::spectral_ref

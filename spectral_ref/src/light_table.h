@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "embree_scene.h"
 #include "geometry.h"
 #include "lanes.h"
+#include "light_tree.h"
 #include "metamer/spectral_ref/scene.h"
 
 namespace metamer::spectral_ref {
@@ -45,16 +47,64 @@ class LightTable {
   /// Draws an entry by power.
   LightPoint choose(std::uint32_t bits, float u, float v) const { return {m_choice.sample(bits), u, v}; }
   /// The point as seen from `from`; pdf 0 where it is not (behind a one-sided light).
-  LightSample sample(const LightPoint& point, const Vec3& from) const;
+  LightSample sample(const LightPoint& point, const Vec3& from) const {
+    LightSample sample = located(point, from);
+    sample.pdf *= m_choice.probability(point.entry);
+    return sample;
+  }
+  /// The same with the density that the point has once its entry is chosen.
+  LightSample located(const LightPoint& point, const Vec3& from) const;
 
   /// Density with which choose() and sample() at `from` find what a ray hit.
-  float pdf(const Hit& hit, const Vec3& from, const Vec3& direction) const;
-  float environmentPdf(const Vec3& direction) const;
+  float pdf(const Hit& hit, const Vec3& from, const Vec3& direction) const {
+    return m_choice.probability(entryOf(hit)) * locatedPdf(hit, from, direction);
+  }
+  float environmentPdf(const Vec3& direction) const {
+    return m_choice.probability(environmentEntry(direction)) * locatedEnvironmentPdf(direction);
+  }
+  /// Of the entry.
+  float probability(std::uint32_t entry) const { return m_choice.probability(entry); }
+  /// The same once the entry is chosen.
+  float locatedPdf(const Hit& hit, const Vec3& from, const Vec3& direction) const;
+  float locatedEnvironmentPdf(const Vec3& direction) const;
+  /// Entry that an emitting hit, or a direction into the environment, belongs to.
+  std::uint32_t entryOf(const Hit& hit) const { return m_emitters[hit.emitter].first + elementOf(hit); }
+  std::uint32_t environmentEntry(const Vec3& direction) const {
+    return m_emitters[m_environment].first + environmentElement(direction);
+  }
+
+  /// Where each entry lies and shines. @param scene  the one the table was made from
+  std::vector<LightBounds> bounds(const Scene& scene) const;
 
   /// Element of an emitter that a hit lies on.
   std::uint32_t elementOf(const Hit& hit) const;
   std::uint32_t environmentEmitter() const { return m_environment; }
   std::uint32_t environmentElement(const Vec3& direction) const;
+
+  /// Sum over lanes of radiance times a factor.
+  template <int C>
+  float response(std::uint32_t emitter, std::uint32_t element, const SpectrumTables& spectra,
+                 const std::array<std::uint16_t, C>& cells, const std::array<float, C>& factors) const {
+    const Emitter& source = m_emitters[emitter];
+    const auto ofSpectrum = [&](SpectrumId id) {
+      const float* values = spectra.table(id);
+      float sum = 0;
+      for (std::size_t k = 0; k < C; ++k) {
+        sum += factors[k] * values[cells[k]];
+      }
+      return sum;
+    };
+    if (source.picture == nullptr) {
+      return ofSpectrum(source.spectrum);
+    }
+    const EmitterPicture& picture = *source.picture;
+    const float* drives = picture.drives.data() + std::size_t{element} * picture.emitters.size();
+    float sum = 0;
+    for (std::size_t k = 0; k < picture.emitters.size(); ++k) {
+      sum += drives[k] * ofSpectrum(picture.emitters[k]);
+    }
+    return sum;
+  }
 
   /// Radiance (point and spot lights: intensity) towards the side that emits.
   template <int C>
@@ -90,6 +140,7 @@ class LightTable {
     float cosCone = 0;
     const Mesh* mesh = nullptr;
   };
+  static Eigen::Vector2f onRectangle(const Emitter& emitter, std::uint32_t element, float u, float v);
   /// From a density over area to one over solid angle.
   static LightSample onArea(const Vec3& point, const Vec3& normal, float area, const Vec3& from);
   LightSample onSphere(const Emitter& emitter, const LightPoint& point, const Vec3& from) const;
@@ -97,7 +148,10 @@ class LightTable {
   LightSample inEnvironment(const Emitter& emitter, std::uint32_t element, const LightPoint& point) const;
   void add(const Emitter& emitter, std::size_t elements);
   void addShapes(const Scene& scene, const EmbreeScene& shapes);
-  std::vector<double> weights(const Scene& scene) const;
+  std::vector<double> worths(const Scene& scene) const;
+  double powerExtent(const Emitter& emitter, std::uint32_t element) const;
+  LightBounds boundsOf(const Emitter& emitter, std::uint32_t element) const;
+  std::array<Vec3, 4> cornersOf(const Emitter& emitter, std::uint32_t element) const;
 
   std::vector<Emitter> m_emitters;
   std::vector<std::uint32_t> m_emitterOfEntry;

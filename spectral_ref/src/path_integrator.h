@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "camera.h"
 #include "embree_scene.h"
 #include "film_sensor.h"
@@ -52,14 +54,24 @@ class PathRandom {
     return lights.choose(m_set.bits[m_offset + 2], m_set[m_offset], m_set[m_offset + 1]);
   }
   Eigen::Vector2f direction() const { return {m_set[m_offset + 3], m_set[m_offset + 4]}; }
+  /// Chooses among the candidates of resampling, in place of light().
+  float candidate() const { return m_set[m_offset + 2]; }
+  Sampler::Candidates candidates(unsigned log2Count) const { return m_sampler.candidates(kCandidateSet, log2Count); }
   float lobe() const { return m_vertex > 0 ? m_set[5] : m_sampler.random(0); }
   float roulette() const { return m_vertex > 0 ? m_set[6] : m_sampler.random(1); }
 
  private:
+  static constexpr std::uint32_t kCandidateSet = 0x63616e64U;  ///< no vertex has this number
+
   Sampler m_sampler;
   Sampler::Set m_set;
   std::size_t m_offset = 3;
   std::uint32_t m_vertex = 0;
+};
+
+/// Direct light of the first surface by next-event estimation, as of all others.
+struct NoResampling {
+  static constexpr bool kResamples = false;
 };
 
 /// Radiance along a camera ray at C wavelengths: path tracing with next-event estimation and BSDF sampling, combined by
@@ -73,10 +85,10 @@ class PathIntegrator {
   explicit PathIntegrator(const PreparedScene& prepared)
       : m_prepared(prepared), m_settings(prepared.scene.integrator) {}
 
-  /// @param reservoir  gives the direct light of the first surface where it was filled for it
-  /// @param isHero     whether its target was the hero's alone
+  /// @param resampling  gives the direct light of the first surface, where that is diffuse
+  template <typename Resampling>
   Lanes<C> radiance(Ray ray, const WavelengthSet<C>& wavelengths, PathRandom& random,
-                    const Reservoir<C>* reservoir = nullptr, bool isHero = false) const {
+                    const Resampling& resampling) const {
     Path path;
     for (int edge = 1;; ++edge) {
       Hit hit;
@@ -85,10 +97,10 @@ class PathIntegrator {
         break;
       }
       if (passage == Passage::Escaped) {
-        addEnvironment(ray, path, wavelengths);
+        addEnvironment(ray, path, wavelengths, resampling);
         break;
       }
-      addEmission(ray, hit, path, wavelengths);
+      addEmission(ray, hit, path, wavelengths, resampling);
       if (edge >= m_settings.maxDepth) {
         break;
       }
@@ -100,10 +112,17 @@ class PathIntegrator {
         break;
       }
       random.vertex(static_cast<std::uint32_t>(edge - 1));
-      path.lightShare = 1.0F;
-      if (edge == 1 && reservoir != nullptr && reservoir->confidence > 0.0F) {
-        addResampledLight(hit, bsdf, *reservoir, isHero, path, wavelengths);
-      } else if (!bsdf.isDelta() && !m_prepared.lights.empty()) {
+      bool isResampled = false;
+      if constexpr (Resampling::kResamples) {
+        path.resampled = nullptr;
+        if (edge == 1 && m_prepared.materials.isDiffuse(hit.material)) {
+          isResampled = true;
+          if (!addResampledLight(hit, bsdf, random, path, wavelengths, resampling)) {
+            break;
+          }
+        }
+      }
+      if (!isResampled && !bsdf.isDelta() && !m_prepared.lights.empty()) {
         addDirectLight(hit, frame, out, bsdf, random.light(m_prepared.lights), path, wavelengths);
       }
       if (!scatter(hit, frame, out, bsdf, random, path, ray)) {
@@ -116,30 +135,17 @@ class PathIntegrator {
     return path.radiance;
   }
 
-  /// The receiver that a camera ray sees, for resampling; false where there is none, or it is not diffuse.
-  bool resamplingDomain(Ray ray, const WavelengthSet<C>& wavelengths, const FilmSensor& sensor, bool isHero,
-                        ReservoirDomain<C>& domain) const {
+  /// The diffuse surface that a camera ray sees, if it sees one.
+  bool receiver(Ray ray, Receiver& seen) const {
     Hit hit;
-    Lanes<C> factor = Lanes<C>::Ones();
-    if (trace(ray, hit, factor, wavelengths) != Passage::Hit || m_settings.maxDepth < 2) {
-      return false;
+    while (m_prepared.shapes.intersect(ray, hit)) {
+      if (!m_prepared.materials.isGel(hit.material)) {
+        seen = {hit.position, hit.normal};
+        return m_prepared.materials.isDiffuse(hit.material) && ray.direction.dot(hit.normal) < 0.0F;
+      }
+      ray.origin = offPoint(hit.position, hit.normal, ray.direction);
     }
-    if (!m_prepared.materials.isDiffuse(hit.material) || ray.direction.dot(hit.normal) >= 0.0F) {
-      return false;
-    }
-    factor *= m_prepared.materials.template bsdf<C, kDispersive>(hit.material, m_prepared.spectra, wavelengths)
-                  .diffuseReflectance();
-    domain.place = {hit.position.x(), hit.position.y(), hit.position.z()};
-    domain.up = {hit.normal.x(), hit.normal.y(), hit.normal.z()};
-    for (int k = 0; k < C; ++k) {
-      const auto lane = static_cast<std::size_t>(k);
-      domain.cell[lane] = static_cast<std::uint16_t>(wavelengths.cell[lane]);
-      // Lanes: luminance, and a little of everything, so that a point is lost to no lane.
-      constexpr float kInvisibleShare = 0.05F / static_cast<float>(kCells);
-      const float luminance = std::abs(sensor.luminance(wavelengths.cell[lane])) + kInvisibleShare;
-      domain.factor[lane] = isHero ? (k == 0 ? factor[0] : 0.0F) : factor[k] * luminance * wavelengths.weight[k];
-    }
-    return true;
+    return false;
   }
 
  private:
@@ -152,10 +158,10 @@ class PathIntegrator {
     Lanes<C> throughput = Lanes<C>::Ones();
     /// The same density with each lane as hero, over that of the hero.
     Density<C, kDispersive> heroes = ones();
-    float heroSum = static_cast<float>(C);        ///< over all heroes
-    float heroSumBefore = static_cast<float>(C);  ///< the same before the last direction was drawn
-    float lastPdf = 0;                            ///< of that direction, by the hero
-    float lightShare = 1;                         ///< of next-event estimation there, as a number of light samples
+    float heroSum = static_cast<float>(C);          ///< over all heroes
+    float heroSumBefore = static_cast<float>(C);    ///< the same before the last direction was drawn
+    float lastPdf = 0;                              ///< of that direction, by the hero
+    const ReservoirDomain<C>* resampled = nullptr;  ///< where its next-event estimation was resampled
     Vec3 lastPosition = Vec3::Zero();
     bool lastIsDelta = true;  ///< next-event estimation could not have found what it hits
   };
@@ -207,34 +213,47 @@ class PathIntegrator {
     return true;
   }
 
-  /// Weight of light found by following the BSDF, where next-event estimation finds it with density `lightPdf`:
-  /// C p_bsdf / (sum of p_bsdf + sum of p_light over heroes).
-  static float bsdfWeight(const Path& path, float lightPdf) {
-    const float others = path.lastIsDelta ? 0.0F : path.lightShare * lightPdf / path.lastPdf * path.heroSumBefore;
+  /// Weight of light found by following the BSDF, where next-event estimation finds it with density p_light:
+  /// C p_bsdf / (sum of p_bsdf + sum of p_light over heroes). `density` is p_light once the entry is chosen.
+  template <typename Density, typename Resampling>
+  float weightOfFound(const Path& path, std::uint32_t entry, const Density& density,
+                      const Resampling& resampling) const {
+    if constexpr (Resampling::kResamples) {
+      if (path.resampled != nullptr) {
+        return resampling.sampler.bsdfWeight(*path.resampled, entry, density(), path.lastPdf);
+      }
+    }
+    const float others =
+        path.lastIsDelta ? 0.0F : m_prepared.lights.probability(entry) * density() / path.lastPdf * path.heroSumBefore;
     return static_cast<float>(C) / (path.heroSum + others);
   }
 
-  void addEmission(const Ray& ray, const Hit& hit, Path& path, const WavelengthSet<C>& wavelengths) const {
+  template <typename Resampling>
+  void addEmission(const Ray& ray, const Hit& hit, Path& path, const WavelengthSet<C>& wavelengths,
+                   const Resampling& resampling) const {
     if (hit.emitter == kNone || ray.direction.dot(hit.normal) >= 0.0F) {
       return;
     }
     const LightTable& lights = m_prepared.lights;
-    const float lightPdf = path.lastIsDelta ? 0.0F : lights.pdf(hit, path.lastPosition, ray.direction);
-    path.radiance += path.throughput *
-                     lights.radiance(hit.emitter, lights.elementOf(hit), m_prepared.spectra, wavelengths) *
-                     bsdfWeight(path, lightPdf);
+    const auto density = [&] { return lights.locatedPdf(hit, path.lastPosition, ray.direction); };
+    const float weight = weightOfFound(path, lights.entryOf(hit), density, resampling);
+    path.radiance +=
+        path.throughput * lights.radiance(hit.emitter, lights.elementOf(hit), m_prepared.spectra, wavelengths) * weight;
   }
 
-  void addEnvironment(const Ray& ray, Path& path, const WavelengthSet<C>& wavelengths) const {
+  template <typename Resampling>
+  void addEnvironment(const Ray& ray, Path& path, const WavelengthSet<C>& wavelengths,
+                      const Resampling& resampling) const {
     const LightTable& lights = m_prepared.lights;
     if (!lights.hasEnvironment()) {
       return;
     }
-    const float lightPdf = path.lastIsDelta ? 0.0F : lights.environmentPdf(ray.direction);
+    const auto density = [&] { return lights.locatedEnvironmentPdf(ray.direction); };
+    const float weight = weightOfFound(path, lights.environmentEntry(ray.direction), density, resampling);
     path.radiance += path.throughput *
                      lights.radiance(lights.environmentEmitter(), lights.environmentElement(ray.direction),
                                      m_prepared.spectra, wavelengths) *
-                     bsdfWeight(path, lightPdf);
+                     weight;
   }
 
   template <typename Bsdf>
@@ -260,38 +279,43 @@ class PathIntegrator {
   }
 
   /// The same with the point of a reservoir: f W (4.3.3), with the lanes weighed by (4.21) where the hero chose alone.
-  template <typename Bsdf>
-  void addResampledLight(const Hit& hit, const Bsdf& bsdf, const Reservoir<C>& reservoir, bool isHero, Path& path,
-                         const WavelengthSet<C>& wavelengths) const {
-    path.lightShare = ReservoirSampler<C>::kLightShare;
-    if (!(reservoir.contribution > 0.0F)) {
-      return;
+  /// @return  false where nothing is left for the path to find
+  template <typename Bsdf, typename Resampling>
+  bool addResampledLight(const Hit& hit, const Bsdf& bsdf, const PathRandom& random, Path& path,
+                         const WavelengthSet<C>& wavelengths, const Resampling& resampling) const {
+    const Lanes<C> reflected = path.throughput * bsdf.diffuseReflectance();
+    const Reservoir<C>& reservoir = resampling.fill(hit, reflected, wavelengths, random);
+    path.resampled = &reservoir.domain;
+    if (reservoir.contribution > 0.0F) {
+      const auto seen = resampling.sampler.look(reservoir.point, reservoir.domain);
+      Lanes<C> arriving = reflected * m_prepared.lights.radiance(seen.light.emitter, seen.light.element,
+                                                                 m_prepared.spectra, wavelengths);
+      float weight = seen.geometry * reservoir.contribution;
+      if (resampling.isHero) {
+        const float sum = arriving.sum();
+        weight *= sum > 0.0F ? static_cast<float>(C) * arriving[0] / sum : 0.0F;
+      }
+      if (weight > 0.0F && transmits(shadowRay(hit, seen.light), seen.light.emitter, arriving, wavelengths)) {
+        path.radiance += arriving * weight;
+      }
     }
-    const ReservoirSampler<C> sampler(m_prepared.lights, m_prepared.spectra);
-    const auto seen = sampler.look(reservoir.point, reservoir.domain);
-    if (!(seen.geometry > 0.0F)) {
-      return;
-    }
-    Lanes<C> arriving =
-        path.throughput * bsdf.diffuseReflectance() *
-        m_prepared.lights.radiance(seen.light.emitter, seen.light.element, m_prepared.spectra, wavelengths);
-    float weight = seen.geometry * reservoir.contribution;
-    if (isHero) {
-      const float sum = arriving.sum();
-      weight *= sum > 0.0F ? static_cast<float>(C) * arriving[0] / sum : 0.0F;
-    }
-    if (weight > 0.0F && transmits(shadowRay(hit, seen.light), seen.light.emitter, arriving, wavelengths)) {
-      path.radiance += arriving * weight;
-    }
+    return m_settings.maxDepth > 2 || resampling.sampler.needsBsdf(reservoir.domain);
   }
 
   static Ray shadowRay(const Hit& hit, const LightSample& light) {
+    // Short of the light by more than float error.
+    constexpr float kShort = 1.0F - 1e-4F;
     Ray ray;
     ray.origin = offPoint(hit.position, hit.normal, light.direction);
     ray.direction = light.direction;
-    // Short of the light by more than float error.
-    constexpr float kShort = 1.0F - 1e-4F;
-    ray.most = light.distance * kShort;
+    ray.most = light.distance;
+    if (std::isfinite(light.distance)) {
+      // From where it starts: a light close by must not hide itself.
+      const Vec3 towards = hit.position + light.direction * light.distance - ray.origin;
+      ray.most = towards.norm();
+      ray.direction = towards / ray.most;
+      ray.most *= kShort;
+    }
     return ray;
   }
 

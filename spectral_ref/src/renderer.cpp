@@ -16,10 +16,9 @@
 namespace metamer::spectral_ref {
 namespace {
 
-constexpr int kTileSide = 16;
 constexpr std::uint64_t kMostSamplesAPass = 4096;
 /// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
-constexpr std::uint64_t kStateVersion = 0x6d65746100000001U;
+constexpr std::uint64_t kStateVersion = 0x6d65746100000002U;
 
 std::vector<Tile> tilesOf(int width, int height) {
   std::vector<Tile> tiles;
@@ -66,6 +65,7 @@ struct Renderer::State {
         tracer(tracerFor({prepared, sensor, film, guide.get(), options})) {
     // What the guide learns comes from the first samples of all, so these are taken whatever the range.
     cursor = guide ? 0 : epochStart();
+    forTiles([&](const Tile& tile) { tracer->prepare(tile); });
   }
 
   /// First sample that the film's first one depends on, but for what the guide learns.
@@ -104,7 +104,6 @@ struct Renderer::State {
     const bool isKept = cursor >= first;
     if (tracer->resamples()) {
       assert(end == cursor + 1);
-      forTiles([&](const Tile& tile) { tracer->prepare(tile, cursor); });
     }
     forTiles([&](const Tile& tile) { tracer->trace(tile, cursor, end, isKept); });
     cursor = end;
@@ -196,7 +195,7 @@ std::vector<unsigned char> Renderer::state() const {
   if (m_state->guide) {
     m_state->guide->save(writer);
   }
-  m_state->tracer->save(writer);
+  m_state->tracer->save(writer, m_state->cursor);
   return std::move(writer).take();
 }
 
@@ -230,7 +229,7 @@ void Renderer::restore(const std::vector<unsigned char>& state, const std::strin
   if (m_state->guide) {
     m_state->guide->restore(reader);
   }
-  m_state->tracer->restore(reader);
+  m_state->tracer->restore(reader, cursor);
   reader.finish();
   m_state->cursor = cursor;
   m_state->refusedBefore = refused;

@@ -71,14 +71,48 @@ constexpr Directions makeDirections() {
 }
 constexpr Directions kDirections = makeDirections();
 
+/// The sets are padded: an Owen-shuffled index breaks the correlation between them and keeps the stratification.
+/// Only within blocks of 2^16 points: a permutation still, and an index of few bits stays one.
+std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
+  constexpr std::uint32_t kBlock = 0xffffU;
+  return (reversed(scrambledReversed(reversed(index), seed)) & kBlock) | (index & ~kBlock);
+}
+
 }  // namespace
+
+Sampler::Candidates Sampler::candidates(std::uint32_t number, unsigned log2Count) const {
+  const std::uint32_t seed = hash32(m_sequence, number);
+  Candidates result{};
+  std::uint32_t index = shuffled(m_index, seed);
+  for (unsigned bit = log2Count; index != 0 && bit < kBits; ++bit, index >>= 1U) {
+    const std::uint32_t mask = 0U - (index & 1U);
+    for (std::size_t d = 0; d < result.m_bits.size(); ++d) {
+      result.m_bits[d] ^= kDirections[bit][d] & mask;
+    }
+  }
+  for (std::size_t d = 0; d < result.m_seeds.size(); ++d) {
+    result.m_seeds[d] = hash32(seed + static_cast<std::uint32_t>(d) * 0x9e3779b9U);
+  }
+  return result;
+}
+
+std::array<std::uint32_t, 3> Sampler::Candidates::point(std::uint32_t candidate) const {
+  std::array<std::uint32_t, 3> bits = m_bits;
+  for (unsigned bit = 0; bit < kLog2Most; ++bit) {
+    const std::uint32_t mask = 0U - ((candidate >> bit) & 1U);
+    for (std::size_t d = 0; d < bits.size(); ++d) {
+      bits[d] ^= kDirections[bit][d] & mask;
+    }
+  }
+  for (std::size_t d = 0; d < bits.size(); ++d) {
+    bits[d] = reversed(scrambledReversed(bits[d], m_seeds[d]));
+  }
+  return bits;
+}
 
 Sampler::Set Sampler::set(std::uint32_t number) const {
   const std::uint32_t seed = hash32(m_sequence, number);
-  // The sets are padded: an Owen-shuffled index breaks the correlation between them and keeps the stratification.
-  // Only within blocks of 2^16 points: a permutation still, and an index of few bits stays one.
-  constexpr std::uint32_t kBlock = 0xffffU;
-  std::uint32_t index = (reversed(scrambledReversed(reversed(m_index), seed)) & kBlock) | (m_index & ~kBlock);
+  std::uint32_t index = shuffled(m_index, seed);
   std::array<std::uint32_t, kSetSize> bits{};
   for (unsigned bit = 0; index != 0; ++bit, index >>= 1U) {
     const std::uint32_t mask = 0U - (index & 1U);

@@ -40,6 +40,22 @@ class Sampler {
   Sampler(std::uint32_t sequence, std::uint32_t index) : m_sequence(sequence), m_index(index) {}
 
   Set set(std::uint32_t number) const;
+
+  /// Points of three dimensions for several candidates a path: those of one path are stratified against each other, and
+  /// all of a sequence's are.
+  class Candidates {
+   public:
+    static constexpr unsigned kLog2Most = 4;
+    std::array<std::uint32_t, 3> point(std::uint32_t candidate) const;
+
+   private:
+    friend class Sampler;
+    std::array<std::uint32_t, 3> m_bits;
+    std::array<std::uint32_t, 3> m_seeds;
+  };
+  /// @param log2Count  of the candidates a path, at most kLog2Most
+  Candidates candidates(std::uint32_t number, unsigned log2Count) const;
+
   /// Not stratified: for choices that come up too rarely.
   float random(std::uint32_t number) const {
     return unitFloat(hash32(hash32(m_sequence, m_index), number ^ 0x5bd1e995U));

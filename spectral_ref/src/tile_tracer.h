@@ -12,6 +12,8 @@
 
 namespace metamer::spectral_ref {
 
+inline constexpr int kTileSide = 16;
+
 struct Tile {
   int x0;
   int y0;
@@ -36,13 +38,15 @@ class TileTracer {
   static constexpr std::uint64_t kEpoch = 16;
 
   virtual ~TileTracer() = default;
-  /// Whether prepare() must be done for all tiles before trace(), one sample at a time.
+  /// Whether trace() takes one sample at a time, all tiles of one before any of the next.
   virtual bool resamples() const { return false; }
-  virtual void prepare(const Tile&, std::uint64_t /*sample*/) {}
+  /// Once for each tile, before any is traced.
+  virtual void prepare(const Tile&) {}
   /// Samples begin ... end - 1 of all pixels of a tile. @param isKept  whether they go into the film
   virtual void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, bool isKept) = 0;
-  virtual void save(StateWriter&) const {}
-  virtual void restore(StateReader&) {}
+  /// What the next sample, number `sample`, takes from those before.
+  virtual void save(StateWriter&, std::uint64_t /*sample*/) const {}
+  virtual void restore(StateReader&, std::uint64_t /*sample*/) {}
 };
 
 /// Names the random sequence of a pixel's replicate.

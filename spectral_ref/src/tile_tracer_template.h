@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
 #include <vector>
 
@@ -42,7 +43,7 @@ class LaneTracer : public TileTracer {
 
  protected:
   virtual Lanes<C> radianceOf(int /*x*/, int /*y*/, std::uint64_t /*sample*/, PathStart<C>& start) {
-    return m_integrator.radiance(start.ray, start.wavelengths, start.random);
+    return m_integrator.radiance(start.ray, start.wavelengths, start.random, NoResampling());
   }
 
   std::size_t pixelOf(int x, int y) const {
@@ -94,104 +95,165 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
  public:
   explicit ReservoirTracer(const TracerContext& context)
       : LaneTracer<C, kDispersive>(context),
-        m_sampler(context.prepared.lights, context.prepared.spectra),
-        m_fresh(context.film.format().pixels()),
-        m_kept(context.film.format().pixels()) {}
+        m_tree(context.prepared.lights.bounds(context.prepared.scene)),
+        m_blockSide(blockSideFor(context.film.format())),
+        m_blocksAcross(blocksAlong(context.film.format().width, m_blockSide)),
+        m_cuts(m_tree, blocks(context.film.format(), m_blockSide)),
+        m_sampler(context.prepared.lights, context.prepared.spectra, m_cuts) {
+    for (std::vector<Reservoir<C>>& progression : m_reservoirs) {
+      progression.resize(context.film.format().pixels());
+    }
+  }
 
   bool resamples() const override { return true; }
 
-  /// Fresh candidates, then the reservoir of the progression before.
-  void prepare(const Tile& tile, std::uint64_t sample) override {
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        const std::size_t pixel = this->pixelOf(x, y);
-        m_fresh[pixel] = gathered(x, y, sample);
+  /// The light cuts of the tile's blocks.
+  void prepare(const Tile& tile) override {
+    std::vector<Receiver> receivers;
+    for (int y = tile.y0; y < tile.y1; y += m_blockSide) {
+      for (int x = tile.x0; x < tile.x1; x += m_blockSide) {
+        receivers.clear();
+        for (std::size_t i = 0; i < LightCuts::kReceivers; ++i) {
+          // The centres of the block's quarters.
+          const float px = static_cast<float>(x) + static_cast<float>(m_blockSide) * (i % 2 == 0 ? 0.25F : 0.75F);
+          const float py = static_cast<float>(y) + static_cast<float>(m_blockSide) * (i / 2 == 0 ? 0.25F : 0.75F);
+          Receiver receiver;
+          if (this->m_integrator.receiver(this->m_context.prepared.camera.ray(px, py), receiver)) {
+            receivers.push_back(receiver);
+          }
+        }
+        m_cuts.build(blockOf(x, y), receivers);
       }
     }
   }
 
-  void save(StateWriter& writer) const override { writer.putAll(m_kept); }
-  void restore(StateReader& reader) override { reader.getAll(m_kept); }
+  /// The progression before the next sample is all that is read again.
+  void save(StateWriter& writer, std::uint64_t sample) const override { writer.putAll(m_reservoirs[(sample + 1) % 2]); }
+  void restore(StateReader& reader, std::uint64_t sample) override { reader.getAll(m_reservoirs[(sample + 1) % 2]); }
 
  protected:
-  /// Three neighbours, then the path with the point that is left.
   Lanes<C> radianceOf(int x, int y, std::uint64_t sample, PathStart<C>& start) override {
-    const std::size_t pixel = this->pixelOf(x, y);
-    Reservoir<C>& kept = m_kept[pixel];
-    kept = m_fresh[pixel];
-    if (kept.confidence > 0.0F) {
-      const FilmFormat& format = this->m_context.film.format();
-      HashRandom random(this->m_context.options.seed, pixel, sample, kSpatialStream);
-      for (int i = 0; i < kNeighbours; ++i) {
-        const Eigen::Vector2f offset = squareToDisc(random.next(), random.next()) * kRadius;
-        const float u = random.next();
-        const int nx = x + static_cast<int>(std::lround(offset.x()));
-        const int ny = y + static_cast<int>(std::lround(offset.y()));
-        if (nx < 0 || ny < 0 || nx >= format.width || ny >= format.height || (nx == x && ny == y)) {
-          continue;
-        }
-        const Reservoir<C>& other = m_fresh[this->pixelOf(nx, ny)];
-        if (other.domain.normal().dot(kept.domain.normal()) > kLikeNormal) {
-          m_sampler.merge(kept, other, other.confidence, u);
-        }
-      }
-    }
-    return this->m_integrator.radiance(start.ray, start.wavelengths, start.random, &kept,
-                                       this->m_context.options.restir == Restir::Hero);
+    m_reservoirs[sample % 2][this->pixelOf(x, y)].confidence = 0.0F;
+    return this->m_integrator.radiance(start.ray, start.wavelengths, start.random,
+                                       Resampling{*this, m_sampler, isHero(), x, y, sample});
   }
 
  private:
-  static constexpr int kCandidates = 8;
   static constexpr int kNeighbours = 3;
-  static constexpr float kRadius = 10.0F;  ///< pixels
+  static constexpr float kRadius = 3.0F;  ///< pixels
   static constexpr float kLikeNormal = 0.9F;
-  static constexpr float kLongestHistory = 4.0F;  ///< progressions that the reservoir of the one before may stand for
-  static constexpr std::uint32_t kFreshStream = 1;
-  static constexpr std::uint32_t kSpatialStream = 2;
+  static constexpr std::size_t kMostCutBytes = std::size_t{1} << 27U;
   static_assert(std::is_trivially_copyable_v<Reservoir<C>>);
+
+  /// What the integrator asks for at the first surface.
+  struct Resampling {
+    static constexpr bool kResamples = true;
+    ReservoirTracer& tracer;
+    const ReservoirSampler<C>& sampler;
+    bool isHero;
+    int x;
+    int y;
+    std::uint64_t sample;
+    const Reservoir<C>& fill(const Hit& hit, const Lanes<C>& reflected, const WavelengthSet<C>& wavelengths,
+                             const PathRandom& random) const {
+      return tracer.fill(*this, hit, reflected, wavelengths, random);
+    }
+  };
 
   /// Independent numbers for choices among reservoirs.
   class HashRandom {
    public:
-    HashRandom(std::uint32_t seed, std::size_t pixel, std::uint64_t sample, std::uint32_t stream)
-        : m_key(hash32(hash32(seed, static_cast<std::uint32_t>(pixel)),
-                       hash32(static_cast<std::uint32_t>(sample), stream))) {}
-    std::uint32_t bits() { return hash32(m_key, ++m_count); }
-    float next() { return unitFloat(bits()); }
+    HashRandom(std::uint32_t seed, std::size_t pixel, std::uint64_t sample)
+        : m_key(hash32(hash32(seed, static_cast<std::uint32_t>(pixel)), static_cast<std::uint32_t>(sample))) {}
+    float next() { return unitFloat(hash32(m_key, ++m_count)); }
 
    private:
     std::uint32_t m_key;
     std::uint32_t m_count = 0;
   };
 
-  Reservoir<C> gathered(int x, int y, std::uint64_t sample) const {
-    PathStart<C> start = this->startOf(x, y, sample);
-    ReservoirDomain<C> domain;
-    if (!this->m_integrator.resamplingDomain(start.ray, start.wavelengths, this->m_context.sensor,
-                                             this->m_context.options.restir == Restir::Hero, domain)) {
-      return {};
+  static int blocksAlong(int pixels, int side) { return (pixels + side - 1) / side; }
+  static std::size_t blocks(const FilmFormat& format, int side) {
+    return static_cast<std::size_t>(blocksAlong(format.width, side)) *
+           static_cast<std::size_t>(blocksAlong(format.height, side));
+  }
+  /// As small as memory allows: lights nearby look different from pixel to pixel.
+  static int blockSideFor(const FilmFormat& format) {
+    int side = 2;
+    while (side < kTileSide && blocks(format, side) * LightCuts::kBytesABlock > kMostCutBytes) {
+      side *= 2;
     }
-    const std::size_t pixel = this->pixelOf(x, y);
-    HashRandom random(this->m_context.options.seed, pixel, sample, kFreshStream);
-    const LightTable& lights = this->m_context.prepared.lights;
-    Reservoir<C> reservoir = m_sampler.fresh(domain, kCandidates, [&](int i) {
-      // One candidate from each of as many equal parts of the lights.
-      const auto bits = static_cast<std::uint32_t>(((static_cast<std::uint64_t>(i) << 32U) + random.bits()) /
-                                                   static_cast<std::uint64_t>(kCandidates));
-      const float u = random.next();
-      const float v = random.next();
-      return std::pair(lights.choose(bits, u, v), random.next());
-    });
-    if (sample % TileTracer::kEpoch != 0) {
-      const Reservoir<C>& before = m_kept[pixel];
-      m_sampler.merge(reservoir, before, std::min(before.confidence, kLongestHistory * kCandidates), random.next());
-    }
-    return reservoir;
+    return side;
   }
 
+  bool isHero() const { return this->m_context.options.restir == Restir::Hero; }
+
+  std::size_t blockOf(int x, int y) const {
+    return static_cast<std::size_t>(y / m_blockSide) * static_cast<std::size_t>(m_blocksAcross) +
+           static_cast<std::size_t>(x / m_blockSide);
+  }
+
+  ReservoirDomain<C> domainOf(const Resampling& at, const Hit& hit, const Lanes<C>& reflected,
+                              const WavelengthSet<C>& wavelengths) const {
+    ReservoirDomain<C> domain;
+    domain.block = static_cast<std::uint32_t>(blockOf(at.x, at.y));
+    domain.place = {hit.position.x(), hit.position.y(), hit.position.z()};
+    domain.up = {hit.normal.x(), hit.normal.y(), hit.normal.z()};
+    for (int k = 0; k < C; ++k) {
+      const auto lane = static_cast<std::size_t>(k);
+      domain.cell[lane] = static_cast<std::uint16_t>(wavelengths.cell[lane]);
+      // Lanes: luminance, and a little of everything, so that a point is lost to no lane.
+      constexpr float kInvisibleShare = 0.05F / static_cast<float>(kCells);
+      const float luminance = std::abs(this->m_context.sensor.luminance(wavelengths.cell[lane])) + kInvisibleShare;
+      domain.factor[lane] = reflected[k] * luminance * wavelengths.weight[k];
+      if (at.isHero) {
+        domain.factor[lane] = k == 0 ? reflected[0] : 0.0F;
+      }
+    }
+    return domain;
+  }
+
+  /// Fresh candidates, then the reservoirs that three neighbours had in the progression before: reuse over pixels and
+  /// progressions at once.
+  ///
+  /// A pixel's own reservoir is left out: what it would bring has been counted in this pixel already, so in the mean
+  /// over progressions it only takes weight from what is new. Nor does a neighbour count more than the fresh
+  /// candidates.
+  const Reservoir<C>& fill(const Resampling& at, const Hit& hit, const Lanes<C>& reflected,
+                           const WavelengthSet<C>& wavelengths, const PathRandom& random) {
+    const std::size_t pixel = this->pixelOf(at.x, at.y);
+    Reservoir<C>& own = m_reservoirs[at.sample % 2][pixel];
+    own = m_sampler.fresh(domainOf(at, hit, reflected, wavelengths),
+                          random.candidates(ReservoirSampler<C>::kLog2Candidates), random.candidate());
+    if (at.sample % TileTracer::kEpoch == 0) {
+      return own;
+    }
+    const std::vector<Reservoir<C>>& before = m_reservoirs[(at.sample + 1) % 2];
+    const FilmFormat& format = this->m_context.film.format();
+    HashRandom choices(this->m_context.options.seed, pixel, at.sample);
+    for (int i = 0; i < kNeighbours; ++i) {
+      const Eigen::Vector2f offset = squareToDisc(choices.next(), choices.next()) * kRadius;
+      const float u = choices.next();
+      const int x = at.x + static_cast<int>(std::lround(offset.x()));
+      const int y = at.y + static_cast<int>(std::lround(offset.y()));
+      if (x < 0 || y < 0 || x >= format.width || y >= format.height || (x == at.x && y == at.y)) {
+        continue;
+      }
+      const Reservoir<C>& other = before[this->pixelOf(x, y)];
+      if (other.domain.normal().dot(own.domain.normal()) > kLikeNormal) {
+        m_sampler.merge(own, other, std::min(other.confidence, ReservoirSampler<C>::kShare), u);
+      }
+    }
+    return own;
+  }
+
+  LightTree m_tree;
+  int m_blockSide;  ///< pixels
+  int m_blocksAcross;
+  LightCuts m_cuts;
   ReservoirSampler<C> m_sampler;
-  std::vector<Reservoir<C>> m_fresh;
-  std::vector<Reservoir<C>> m_kept;
+  /// Of the progression at hand and the one before, in turn: so that a pixel reads what no other is writing.
+  std::array<std::vector<Reservoir<C>>, 2> m_reservoirs;
 };
 
 template <int C>

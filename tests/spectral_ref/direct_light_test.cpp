@@ -180,5 +180,26 @@ TEST(DirectLightTest, AGelBeforeALampColoursBothItsLookAndItsLight) {
   }
 }
 
+TEST(DirectLightTest, ALampCloseByDoesNotHideItself) {
+  for (const double distance : {0.5, 0.05, 0.005}) {
+    for (const Restir restir : {Restir::Off, Restir::Lanes}) {
+      const double half = 0.02 * distance;
+      const Scene scene = sceneOf(
+          "metamer_scene: 1\n"
+          "film: {width: 1, height: 1}\n"
+          "camera: {origin: [0, 0, 10], target: [0, 0, 0], up: [0, 1, 0], fov_x: 0.001}\n"
+          "integrator: {max_depth: 2}\n"
+          "shapes:\n"
+          "  - rectangle: {center: [0, 0, 0], half_u: [1, 0, 0], half_v: [0, 1, 0]}\n    diffuse: 0.5\n"
+          "  - rectangle: {center: [" +
+          std::to_string(distance) + ", 0, " + std::to_string(distance) + "], half_u: [0, " + std::to_string(half) +
+          ", 0], half_v: [" + std::to_string(half) + ", 0, 0]}\n    emission: 1\n");
+      const double expected = 0.5 / M_PI * formIntegral(Vector3::Zero(), Vector3::UnitZ(), scene.rectangles[1], 64);
+      // Near the whole lamp the integrand is almost constant: 256 samples leave far less than this.
+      EXPECT_NEAR(rendered(scene, 256, {0, false, restir}).luminance(0).mean / expected, 1.0, 0.01) << distance;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace metamer::spectral_ref

@@ -90,6 +90,29 @@ std::string manyLamps(const char* material) {
   return text + "lights: [{environment: {emission: 0.02}}]\n";
 }
 
+/// Lamps that touch the chart and many small ones close to it: light cuts that look different from pixel to pixel, and
+/// panels so near that BSDF sampling has its share.
+std::string nearLamps() {
+  std::string text =
+      "metamer_scene: 1\n"
+      "film: {width: 24, height: 16}\n"
+      "camera: {origin: [0, 0, 10], target: [0, 0, 0], up: [0, 1, 0], fov_x: 34}\n"
+      "integrator: {max_depth: 2, wavelengths: 4}\n"
+      "spectra: {line: {wavelengths: [586, 589, 592], values: [0, 60, 0]}}\n"
+      "shapes:\n"
+      "  - chart: {center: [0, 0, 0], half_u: [3, 0, 0], half_v: [0, 2, 0], gap: 0}\n"
+      "  - rectangle: {center: [-2.5, 0, 0.5], half_u: [0, 1, 0], half_v: [0, 0, 0.5]}\n    emission: 1\n"
+      "  - rectangle: {center: [-2.5, 1.5, 0.5], half_u: [0, 0.5, 0], half_v: [0, 0, 0.5]}\n    emission: line\n";
+  for (int i = 0; i < 120; ++i) {
+    const double x = -2.0 + 0.4 * (i % 12);
+    const double y = -1.8 + 0.4 * (i / 12);
+    text += "  - rectangle: {center: [" + std::to_string(x) + ", " + std::to_string(y) + ", " +
+            std::to_string(0.05 + 0.1 * (i % 7)) + "], half_u: [0, 0.02, 0], half_v: [0.02, 0, 0]}\n    emission: " +
+            (i % 5 == 0 ? "line" : std::to_string(1 + i % 3)) + "\n";
+  }
+  return text;
+}
+
 class AgreementTest : public testing::TestWithParam<AgreementCase> {};
 
 TEST_P(AgreementTest, MeansAndVariances) {
@@ -130,7 +153,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest,
                                                        {{1, 1, 6, 4}, {9, 6, 6, 4}, {15, 4, 4, 4}, {0, 0, 24, 16}}},
                                          AgreementCase{"dispersive ball",
                                                        manyLamps("dielectric: {index: {cauchy: [1.5, 0.02]}}"),
-                                                       {{1, 1, 6, 4}, {15, 4, 4, 4}, {0, 0, 24, 16}}}));
+                                                       {{1, 1, 6, 4}, {15, 4, 4, 4}, {0, 0, 24, 16}}},
+                                         AgreementCase{"lamps nearby",
+                                                       nearLamps(),
+                                                       {{2, 6, 2, 4}, {9, 6, 6, 4}, {20, 4, 4, 8}, {0, 0, 24, 16}}}));
 
 TEST(LanesTest, EveryNumberOfLanesHasTheSameExpectation) {
   const std::vector<Area> areas = {{15, 4, 4, 4}, {0, 0, 24, 16}};
