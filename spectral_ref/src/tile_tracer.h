@@ -36,6 +36,8 @@ class TileTracer {
   static constexpr std::uint64_t kEpoch = 16;
 
   virtual ~TileTracer() = default;
+  /// Teaches the guide what the pixels of a tile see; before anything is traced.
+  virtual void learn(const Tile& tile) = 0;
   /// Whether prepare() must be done for all tiles before trace(), one sample at a time.
   virtual bool resamples() const { return false; }
   virtual void prepare(const Tile&, std::uint64_t /*sample*/) {}
