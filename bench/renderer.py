@@ -64,7 +64,7 @@ shapes:
     dielectric: {{index: {{cauchy: [1.5, 0.03]}}}}
   - rectangle: {{center: [0, 0, -2], half_u: [3, 0, 0], half_v: [0, 2, 0]}}
     diffuse: 0.6
-  - rectangle: {{center: [-3, 2, 2], half_u: [0.5, 0.5, 0], half_v: [0, 0, -0.7]}}
+  - rectangle: {{center: [-3, 2, 2], half_u: [0.5, 0.5, 0], half_v: [0, 0, 0.7]}}
     emission: lamp
 """
 

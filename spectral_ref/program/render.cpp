@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "guide_dump.h"
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral_ref/checkpoint.h"
@@ -43,6 +44,8 @@ struct RenderArguments {
   int threads = 0;
   bool resume = false;
   double checkpointSeconds = 30;
+  std::string guideDump;
+  std::vector<std::string> guidePixels;
 };
 
 volatile std::sig_atomic_t stopSignal = 0;  // NOLINT: a signal handler can reach nothing else
@@ -54,17 +57,34 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// "A:B", whole numbers, A < B.
-std::array<std::uint64_t, 2> parseRange(const std::string& text) {
-  std::array<std::uint64_t, 2> range{};
+/// Two whole numbers with a separator between.
+template <typename Number>
+std::optional<std::array<Number, 2>> parsePair(const std::string& text, char separator) {
+  std::array<Number, 2> pair{};
   const char* end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, range[0]);
-  const bool hasColon = first.ec == std::errc() && first.ptr != end && *first.ptr == ':';
-  const auto second = hasColon ? std::from_chars(first.ptr + 1, end, range[1]) : first;
-  if (!hasColon || second.ec != std::errc() || second.ptr != end || range[0] >= range[1] || range[1] > kMostSamples) {
+  const auto first = std::from_chars(text.data(), end, pair[0]);
+  if (first.ec != std::errc() || first.ptr == end || *first.ptr != separator) {
+    return std::nullopt;
+  }
+  const auto second = std::from_chars(first.ptr + 1, end, pair[1]);
+  return second.ec == std::errc() && second.ptr == end ? std::optional(pair) : std::nullopt;
+}
+
+std::array<std::uint64_t, 2> parseRange(const std::string& text) {
+  const auto range = parsePair<std::uint64_t>(text, ':');
+  if (!range || (*range)[0] >= (*range)[1] || (*range)[1] > kMostSamples) {
     throw CLI::ValidationError("--samples", "'" + text + "' must be FIRST:END, such as 0:64");
   }
-  return range;
+  return *range;
+}
+
+std::array<int, 2> parsePixel(const std::string& text, const FilmSettings& film) {
+  const auto pixel = parsePair<int>(text, ',');
+  if (!pixel || (*pixel)[0] < 0 || (*pixel)[1] < 0 || (*pixel)[0] >= film.width || (*pixel)[1] >= film.height) {
+    throw CLI::ValidationError("--guide-pixel", "'" + text + "' must be X,Y within the picture of " +
+                                                    std::to_string(film.width) + " x " + std::to_string(film.height));
+  }
+  return *pixel;
 }
 
 class RenderJob {
@@ -86,9 +106,15 @@ class RenderJob {
     } else {
       m_range[1] = kDefaultSamples;
     }
+    for (const std::string& text : arguments.guidePixels) {
+      m_guidePixels.push_back(parsePixel(text, m_scene.film));
+    }
     RenderOptions options;
     options.seed = arguments.seed;
     options.guiding = arguments.guiding == "on";
+    if (!arguments.guideDump.empty() && !options.guiding) {
+      throw CLI::ValidationError("--guide-dump", "needs --guiding on");
+    }
     options.restir = arguments.restir == "hero"    ? Restir::Hero
                      : arguments.restir == "lanes" ? Restir::Lanes
                                                    : Restir::Off;
@@ -113,6 +139,10 @@ class RenderJob {
       saveCheckpoint();
       throw std::runtime_error("stopped after " + std::to_string(m_renderer->nextSample() - m_range[0]) +
                                " samples; go on with --resume");
+    }
+    if (!m_arguments.guideDump.empty()) {
+      m_renderer->render(m_range[1], 0);  // learns, where a resumed render had nothing left to do
+      writeGuideDump(*m_renderer, m_guidePixels, m_arguments.guideDump);
     }
     const Film& film = m_renderer->film();
     writeExr(film, notes(), m_arguments.output, !m_arguments.range.empty(), m_arguments.restir != "off");
@@ -224,6 +254,7 @@ class RenderJob {
   spectral::DataLibrary m_library;
   Scene m_scene;
   std::array<std::uint64_t, 2> m_range{};
+  std::vector<std::array<int, 2>> m_guidePixels;
   std::unique_ptr<Renderer> m_renderer;
   double m_secondsToMeasure = 0;
   bool m_hasWarned = false;
@@ -259,6 +290,11 @@ void addRender(CLI::App& application) {
   command->add_flag("--resume", arguments->resume, "Go on from OUTPUT.checkpoint where there is one");
   command->add_option("--checkpoint", arguments->checkpointSeconds, "Seconds between checkpoints; 30 by default")
       ->check(CLI::Range(0.0, 1e9));
+  auto* dump = command->add_option("--guide-dump", arguments->guideDump,
+                                   "Also write what guiding has learnt about --guide-pixel, as JSON");
+  auto* pixels = command->add_option("--guide-pixel", arguments->guidePixels, "X,Y from the top left (repeatable)");
+  dump->needs(pixels);
+  pixels->needs(dump);
   command->callback([arguments] { RenderJob(*arguments).run(); });
 }
 

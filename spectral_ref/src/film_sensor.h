@@ -52,8 +52,10 @@ class FilmSensor {
     }
   }
 
-  /// |Y| of each lane's radiance, for learning wavelengths: |y(lambda)| F(lambda) (4.12).
+  /// Y of a radiance of 1 in a cell.
   float luminance(std::int32_t cell) const { return m_curves[static_cast<std::size_t>(cell)][3]; }
+  /// What a radiance of 1 in a cell adds to luminance and all three responses, none negative.
+  float worth(std::int32_t cell) const { return m_curves[static_cast<std::size_t>(cell)].abs().sum(); }
   std::uint64_t refused() const { return m_refused.load(); }
 
  private:

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <vector>
 
+#include "light_spectrum.h"
 #include "state_bytes.h"
 #include "tile_tracer.h"
 
@@ -59,16 +60,15 @@ struct Renderer::State {
         tiles(tilesOf(scene.film.width, scene.film.height)),
         arena(threads > 0 ? std::min(threads, tbb::info::default_concurrency()) : tbb::task_arena::automatic),
         first(firstSample),
-        guide(options.guiding
-                  ? std::make_unique<WavelengthGuide>(scene.film.width, scene.film.height, scene.integrator.wavelengths)
-                  : nullptr),
+        guide(options.guiding ? std::make_unique<WavelengthGuide>(scene.film.width, scene.film.height,
+                                                                  scene.integrator.wavelengths, worthOfLights(scene))
+                              : nullptr),
         tracer(tracerFor({prepared, sensor, film, guide.get(), options})) {
-    // What the guide learns comes from the first samples of all, so these are taken whatever the range.
-    cursor = guide ? 0 : epochStart();
+    cursor = epochStart();
     forTiles([&](const Tile& tile) { tracer->prepare(tile); });
   }
 
-  /// First sample that the film's first one depends on, but for what the guide learns.
+  /// First sample that the film's first one depends on.
   std::uint64_t epochStart() const { return tracer->resamples() ? first - first % TileTracer::kEpoch : first; }
   std::uint64_t next() const { return std::max(cursor, first); }
 
@@ -86,18 +86,21 @@ struct Renderer::State {
     });
   }
 
-  /// The end of a pass of at most `count` samples: not across a sample at which something is built or the film begins.
+  /// The end of a pass of at most `count` samples: not across the film's first one.
   std::uint64_t passEnd(std::uint64_t count) const {
     std::uint64_t end = cursor + count;
     if (cursor < first) {
       end = std::min(end, first);
     }
-    for (const std::uint64_t build : WavelengthGuide::kBuilds) {
-      if (guide && cursor < build) {
-        end = std::min(end, build);
-      }
-    }
     return tracer->resamples() ? cursor + 1 : end;
+  }
+
+  /// Densities follow from scene and seed alone, so checkpoints and parts of a render need not carry them.
+  void learnWavelengths() {
+    if (guide && !guide->isReady()) {
+      forTiles([&](const Tile& tile) { tracer->learn(tile); });
+      arena.execute([&] { guide->build(); });
+    }
   }
 
   void pass(std::uint64_t end) {
@@ -107,13 +110,6 @@ struct Renderer::State {
     }
     forTiles([&](const Tile& tile) { tracer->trace(tile, cursor, end, isKept); });
     cursor = end;
-    if (guide && std::find(WavelengthGuide::kBuilds.begin(), WavelengthGuide::kBuilds.end(), cursor) !=
-                     WavelengthGuide::kBuilds.end()) {
-      arena.execute([&] { guide->build(); });
-    }
-    if (guide && !guide->isLearning(cursor)) {
-      cursor = std::max(cursor, epochStart());
-    }
     film.setRanges({{first, next()}});
     film.refused = refusedBefore + sensor.refused();
   }
@@ -125,7 +121,7 @@ struct Renderer::State {
   std::vector<Tile> tiles;
   tbb::task_arena arena;
   std::uint64_t first;
-  std::uint64_t cursor = 0;  ///< next sample to take; before `first` they are taken for what they teach
+  std::uint64_t cursor = 0;  ///< next sample to take; those before `first` fill reservoirs alone
   std::uint64_t refusedBefore = 0;
   std::unique_ptr<WavelengthGuide> guide;
   std::unique_ptr<TileTracer> tracer;
@@ -141,6 +137,7 @@ void Renderer::render(std::uint64_t end, double seconds) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const auto elapsed = [&start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  m_state->learnWavelengths();
   while (m_state->next() < end && elapsed() < seconds) {
     // As many samples a pass as fill the time left, once their price is known.
     std::uint64_t count = 1;
@@ -159,18 +156,15 @@ std::uint64_t Renderer::nextSample() const {
   return m_state->next();
 }
 
-spectral::DomainSamples Renderer::wavelengthDensity(int x, int y) const {
-  if (!m_state->guide || !m_state->guide->isReady()) {
-    return spectral::DomainSamples::Constant(1.0 / kCells);
+std::optional<WavelengthDensity> Renderer::wavelengthDensity(int x, int y) const {
+  const WavelengthGuide* guide = m_state->guide.get();
+  if (guide == nullptr || !guide->isReady()) {
+    return std::nullopt;
   }
-  const auto density =
-      m_state->guide->density(static_cast<std::size_t>(y) * static_cast<std::size_t>(m_state->film.format().width) +
-                              static_cast<std::size_t>(x));
-  spectral::DomainSamples samples;
-  for (std::int32_t cell = 0; cell < kCells; ++cell) {
-    samples[cell] = static_cast<double>(density.density(cell));
-  }
-  return samples;
+  const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(m_state->film.format().width) +
+                            static_cast<std::size_t>(x);
+  const auto histogram = guide->histogram(pixel);
+  return WavelengthDensity{guide->density(pixel), {histogram.begin(), histogram.end()}, guide->hasOwn(pixel)};
 }
 
 const Film& Renderer::film() const {
@@ -192,9 +186,6 @@ std::vector<unsigned char> Renderer::state() const {
   writer.put(m_state->cursor);
   writer.put(m_state->film.refused);
   writer.putAll(m_state->film.sums());
-  if (m_state->guide) {
-    m_state->guide->save(writer);
-  }
   m_state->tracer->save(writer, m_state->cursor);
   return std::move(writer).take();
 }
@@ -226,9 +217,6 @@ void Renderer::restore(const std::vector<unsigned char>& state, const std::strin
   const auto refused = reader.get<std::uint64_t>();
   std::vector<ExactSum>& sums = m_state->film.sums();
   reader.getAll(sums);
-  if (m_state->guide) {
-    m_state->guide->restore(reader);
-  }
   m_state->tracer->restore(reader, cursor);
   reader.finish();
   m_state->cursor = cursor;

@@ -38,6 +38,8 @@ class TileTracer {
   static constexpr std::uint64_t kEpoch = 16;
 
   virtual ~TileTracer() = default;
+  /// Teaches the guide what the pixels of a tile see; before anything is traced.
+  virtual void learn(const Tile& tile) = 0;
   /// Whether trace() takes one sample at a time, all tiles of one before any of the next.
   virtual bool resamples() const { return false; }
   /// Once for each tile, before any is traced.

@@ -24,20 +24,44 @@ struct PathStart {
 template <int C, bool kDispersive>
 class LaneTracer : public TileTracer {
  public:
-  explicit LaneTracer(const TracerContext& context) : m_context(context), m_integrator(context.prepared) {}
+  explicit LaneTracer(const TracerContext& context)
+      : m_context(context),
+        m_integrator(context.prepared),
+        m_spread(kDispersive || context.options.restir == Restir::Hero ? Spread::Hero : Spread::Lanes) {}
+
+  void learn(const Tile& tile) override {
+    WavelengthGuide& guide = *m_context.guide;
+    WavelengthGuide::Spectrum spectrum;
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        for (std::uint32_t lesson = 0; lesson < WavelengthGuide::kLessons; ++lesson) {
+          // Random numbers of no replicate of the film: it does not depend on what was learnt from them.
+          PathStart<C> start = startOf(x, y, kReplicates, lesson);
+          Lanes<C> worth = m_integrator.radiance(start.ray, start.wavelengths, start.random, NoResampling());
+          for (int k = 0; k < C; ++k) {
+            worth[k] *= start.wavelengths.weight[k] *
+                        m_context.sensor.worth(start.wavelengths.cell[static_cast<std::size_t>(k)]);
+          }
+          guide.learn<C>(pixelOf(x, y), start.wavelengths, worth, spectrum);
+        }
+      }
+    }
+    guide.add(spectrum);
+  }
 
   void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, bool isKept) override {
-    std::vector<ExactSum> fine(isLearning(begin) ? kCells : 0);
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
         for (std::uint64_t sample = begin; sample < end; ++sample) {
           PathStart<C> start = startOf(x, y, sample);
-          keep(pixelOf(x, y), sample, isKept, start.wavelengths, radianceOf(x, y, sample, start), fine);
+          const Lanes<C> radiance = radianceOf(x, y, sample, start);
+          if (isKept) {
+            m_context.sensor.template add<C>(m_context.film, pixelOf(x, y),
+                                             m_context.film.format().replicates.of(sample), start.wavelengths,
+                                             radiance);
+          }
         }
       }
-    }
-    if (!fine.empty()) {
-      m_context.guide->addFine(fine);
     }
   }
 
@@ -53,39 +77,31 @@ class LaneTracer : public TileTracer {
 
   PathStart<C> startOf(int x, int y, std::uint64_t sample) const {
     const Replicates& replicates = m_context.film.format().replicates;
-    const std::size_t pixel = pixelOf(x, y);
-    const PathRandom random(Sampler(sequenceOf(m_context.options.seed, pixel, replicates.of(sample)),
-                                    static_cast<std::uint32_t>(replicates.index(sample))));
-    const Eigen::Vector2f place = m_context.prepared.camera.filtered(x, y, random.pixel());
-    const bool isGuided = m_context.guide != nullptr && m_context.guide->isReady();
-    return {random,
-            isGuided ? sampleWavelengths<C>(m_context.guide->density(pixel), random.wavelength())
-                     : sampleWavelengths<C>(UniformWavelengths(), random.wavelength()),
-            m_context.prepared.camera.ray(place.x(), place.y())};
+    return startOf(x, y, replicates.of(sample), replicates.index(sample));
   }
 
   const TracerContext m_context;
   const PathIntegrator<C, kDispersive> m_integrator;
 
  private:
-  bool isLearning(std::uint64_t sample) const {
-    return m_context.guide != nullptr && m_context.guide->isLearning(sample);
+  PathStart<C> startOf(int x, int y, std::size_t replicate, std::uint64_t index) const {
+    const std::size_t pixel = pixelOf(x, y);
+    const PathRandom random(
+        Sampler(sequenceOf(m_context.options.seed, pixel, replicate), static_cast<std::uint32_t>(index)));
+    const Eigen::Vector2f place = m_context.prepared.camera.filtered(x, y, random.pixel());
+    return {random, wavelengthsOf(pixel, random.wavelength()), m_context.prepared.camera.ray(place.x(), place.y())};
   }
 
-  void keep(std::size_t pixel, std::uint64_t sample, bool isKept, const WavelengthSet<C>& wavelengths,
-            const Lanes<C>& radiance, std::vector<ExactSum>& fine) {
-    if (isKept) {
-      m_context.sensor.template add<C>(m_context.film, pixel, m_context.film.format().replicates.of(sample),
-                                       wavelengths, radiance);
+  WavelengthSet<C> wavelengthsOf(std::size_t pixel, float u) const {
+    const WavelengthGuide* guide = m_context.guide;
+    if (guide != nullptr && guide->hasOwn(pixel)) {
+      return sampleWavelengths<C>(guide->pixel(pixel), u, m_spread);
     }
-    if (!fine.empty()) {
-      Lanes<C> luminance = radiance * wavelengths.weight;
-      for (int k = 0; k < C; ++k) {
-        luminance[k] *= std::abs(m_context.sensor.luminance(wavelengths.cell[static_cast<std::size_t>(k)]));
-      }
-      m_context.guide->template learn<C>(pixel, wavelengths, luminance, fine);
-    }
+    return guide == nullptr || guide->isUniform() ? sampleWavelengths<C>(UniformWavelengths(), u, m_spread)
+                                                  : sampleWavelengths<C>(guide->picture(), u, m_spread);
   }
+
+  const Spread m_spread;
 };
 
 /// Path tracing whose direct light at the first surface, where that is diffuse, is resampled over progressions and

@@ -4,6 +4,7 @@
 import json
 import os
 import re
+import resource
 import signal
 import subprocess
 import tempfile
@@ -76,6 +77,10 @@ class CommandLine(unittest.TestCase):
             ["render", "scene.yaml", "-o", "a.exr", "--restir", "all"],
             ["render", "scene.yaml", "-o", "a.exr", "--threads", "0"],
             ["render", "scene.yaml", "-o", "a.exr", "--seed", "-1"],
+            ["render", "scene.yaml", "-o", "a.exr", "--guide-dump", "a.json", "--guide-pixel", "1,1"],
+            ["render", "scene.yaml", "-o", "a.exr", "--guiding", "on", "--guide-dump", "a.json"],
+            ["render", "scene.yaml", "-o", "a.exr", "--guiding", "on", "--guide-dump", "a.json", "--guide-pixel", "40,1"],
+            ["render", "scene.yaml", "-o", "a.exr", "--guiding", "on", "--guide-dump", "a.json", "--guide-pixel", "4x1"],
             ["merge", "-o", "a.exr"],
         ):
             with self.subTest(arguments):
@@ -124,6 +129,20 @@ class CommandLine(unittest.TestCase):
         self.works("render", "scene.yaml", "-o", "other.exr", "--samples", "24:30", "--seed", "1")
         self.fails("merge", "a.exr", "other.exr", "-o", "c.exr", code=1, says="seed")
 
+    def test_guide_dump(self):
+        scene = SCENE.replace("illuminant: A", "illuminant: FL11")
+        (self.folder / "scene.yaml").write_text(scene)
+        self.works("render", "scene.yaml", "-o", "a.exr", "--spp", "4", "--guiding", "on", "--guide-dump", "a.json",
+                   "--guide-pixel", "20,16", "--guide-pixel", "0,0")
+        dump = json.loads(self.read("a.json"))
+        self.assertEqual([(p["x"], p["y"]) for p in dump["pixels"]], [(20, 16), (0, 0)])
+        for pixel in dump["pixels"]:
+            self.assertAlmostEqual(sum(pixel["density"]), 1, places=3)
+            self.assertAlmostEqual(sum(pixel["histogram"]), 1, places=6)
+            self.assertEqual((len(pixel["density"]), len(pixel["histogram"])), (401, 20))
+        # FL11 has its strongest line at 545 nm: in the bin from 540 nm.
+        self.assertEqual(int(np.argmax(dump["pixels"][0]["histogram"])), 8)
+
     def test_a_killed_render_goes_on(self):
         scene = SCENE.replace("width: 40, height: 32", "width: 120, height: 100")
         (self.folder / "scene.yaml").write_text(scene)
@@ -157,6 +176,30 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
         self.assertIn("goes on without checkpoints", result.stderr)
         self.assertTrue((self.folder / "a.exr").exists())
+
+    def test_a_full_disk_while_checkpointing(self):
+        # Files may grow to the size of the picture, not to that of a checkpoint, which holds exact sums.
+        self.works("render", "scene.yaml", "-o", "a.exr", "--seconds", "0.3")
+        checkpoint = self.folder / "a.exr.checkpoint"
+        before = checkpoint.read_bytes()
+        limit = 4 * (self.folder / "a.exr").stat().st_size
+        self.assertGreater(len(before), limit)
+
+        def limited():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # then writing fails, as on a full disk
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+        result = subprocess.run(
+            [PROGRAM, "render", "scene.yaml", "-o", "a.exr", "--seconds", "0.6", "--checkpoint", "0", "--resume"],
+            cwd=self.folder, capture_output=True, text=True, preexec_fn=limited)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertIn("a.exr.checkpoint", result.stderr)
+        self.assertIn("goes on without checkpoints", result.stderr)
+        self.assertEqual(checkpoint.read_bytes(), before)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
+                         ["a.exr", "a.exr.checkpoint", "scene.yaml"])
+        self.works("render", "scene.yaml", "-o", "a.exr", "--seconds", "0.3", "--resume")
 
     def test_seconds_and_target_error(self):
         start = time.monotonic()

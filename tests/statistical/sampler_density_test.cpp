@@ -33,48 +33,95 @@ WavelengthSet<4> someWavelengths() {
   return sampleWavelengths<4>(UniformWavelengths(), 0.1F);
 }
 
-TEST(WavelengthDensityTest, EveryLaneFollowsTheGuideAndNoDensityIsZero) {
-  WavelengthGuide guide(3, 3, 4);
+/// Each lane's wavelengths against a density by cell, which must be one, nowhere below `least`, and what weights say.
+template <typename Distribution>
+void expectLanesFollow(const Distribution& distribution, double least, const std::string& what,
+                       Spread spread = Spread::Lanes) {
+  std::vector<double> expected(kCells);
+  double total = 0;
+  for (std::int32_t cell = 0; cell < kCells; ++cell) {
+    const auto density = static_cast<double>(distribution.density(cell));
+    ASSERT_GE(density, 0.99 * least / kCells) << what << " cell " << cell;
+    expected[static_cast<std::size_t>(cell)] = density;
+    total += density;
+  }
+  EXPECT_NEAR(total, 1.0, 1e-4) << what;
+  constexpr int kDraws = 200000;
+  for (double& value : expected) {
+    value *= kDraws / total;
+  }
   Random random;
-  std::vector<ExactSum> fine(kCells);
-  // Lines and a slope, and nothing at all in the last pixel.
-  for (std::size_t pixel = 0; pixel < 8; ++pixel) {
-    for (int i = 0; i < 200; ++i) {
-      const auto set = sampleWavelengths<4>(UniformWavelengths(), random.next());
-      Lanes<4> luminance;
-      for (int k = 0; k < 4; ++k) {
-        const int cell = set.cell[static_cast<std::size_t>(k)];
-        luminance[k] = (std::abs(cell - 166) < 3 ? 40.0F : 0.0F) + (cell > 200 ? 1.0F : 0.1F);
-      }
-      guide.learn<4>(pixel, set, luminance, fine);
+  std::array<std::vector<double>, 4> counts;
+  counts.fill(std::vector<double>(kCells));
+  for (int i = 0; i < kDraws; ++i) {
+    const auto set = sampleWavelengths<4>(distribution, random.next(), spread);
+    for (int lane = 0; lane < 4; ++lane) {
+      const std::int32_t cell = set.cell[static_cast<std::size_t>(lane)];
+      counts[static_cast<std::size_t>(lane)][static_cast<std::size_t>(cell)] += 1;
+      ASSERT_NEAR(set.nm[lane], 380.0F + static_cast<float>(cell), 0.501F);
+      ASSERT_NEAR(set.weight[lane] * 4.0F * distribution.density(cell), 1.0F, 1e-3F);
     }
   }
-  guide.addFine(fine);
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    EXPECT_GT(chiSquareProbability(counts[lane], expected), kSignificance) << what << " lane " << lane;
+  }
+}
+
+TEST(WavelengthDensityTest, EveryLaneFollowsTheTable) {
+  expectLanesFollow(WavelengthTable(spectral::DomainSamples::Zero()), 1.0, "nothing known");
+  spectral::DomainSamples spiky = spectral::DomainSamples::Constant(0.05);
+  spiky[0] = 3.0;
+  spiky[166] = 20.0;
+  spiky.tail(100).setZero();
+  spiky[400] = 1.0;
+  expectLanesFollow(WavelengthTable(spiky), WavelengthTable::kDefensive, "spiky");
+  expectLanesFollow(WavelengthTable(spiky), WavelengthTable::kDefensive, "spiky, by hero", Spread::Hero);
+}
+
+TEST(WavelengthDensityTest, EveryLaneFollowsTheGuideAndNoDensityIsZero) {
+  constexpr int kSide = 16;
+  const spectral::DomainSamples lamp = spectral::DomainSamples::LinSpaced(0.2, 1.0);
+  WavelengthGuide guide(kSide, kSide, 4, lamp);
+  Random random;
+  WavelengthGuide::Spectrum spectrum;
+  // A line and a slope; in one corner red light alone; black pixels in another.
+  const auto isRed = [](std::size_t pixel) { return pixel / kSide < 4 && pixel % kSide < 4; };
+  const auto isBlack = [](std::size_t pixel) { return pixel / kSide > 11 && pixel % kSide > 11; };
+  for (std::size_t pixel = 0; pixel < kSide * kSide; ++pixel) {
+    const auto set = sampleWavelengths<4>(guide.picture(), random.next());
+    Lanes<4> worth;
+    for (int k = 0; k < 4; ++k) {
+      const int cell = set.cell[static_cast<std::size_t>(k)];
+      const float usual = (std::abs(cell - 166) < 3 ? 40.0F : 0.0F) + (cell < 350 ? 1.0F : 0.0F);
+      worth[k] = isBlack(pixel) ? 0.0F : set.weight[k] * (isRed(pixel) ? (cell > 350 ? 1.0F : 0.0F) : usual);
+    }
+    guide.learn<4>(pixel, set, worth, spectrum);
+  }
+  guide.add(spectrum);
   guide.build();
-  for (const std::size_t pixel : {std::size_t{0}, std::size_t{8}}) {
-    const auto density = guide.density(pixel);
-    double total = 0;
-    for (std::int32_t cell = 0; cell < kCells; ++cell) {
-      ASSERT_GE(density.density(cell), 0.99F * WavelengthGuide::kDefensive / kCells) << cell;
-      total += static_cast<double>(density.density(cell));
-    }
-    EXPECT_NEAR(total, 1.0, 1e-4);
-    constexpr int kDraws = 200000;
-    for (int lane = 0; lane < 4; ++lane) {
-      std::vector<double> counts(kCells);
-      std::vector<double> expected(kCells);
-      for (int i = 0; i < kDraws; ++i) {
-        const auto set = sampleWavelengths<4>(density, random.next());
-        const auto cell = static_cast<std::size_t>(set.cell[static_cast<std::size_t>(lane)]);
-        counts[cell] += 1;
-        ASSERT_NEAR(set.nm[lane], 380.0F + static_cast<float>(cell), 0.501F);
-        ASSERT_NEAR(set.weight[lane] * 4.0F * density.density(static_cast<std::int32_t>(cell)), 1.0F, 1e-3F);
-      }
-      for (std::int32_t cell = 0; cell < kCells; ++cell) {
-        expected[static_cast<std::size_t>(cell)] = kDraws * static_cast<double>(density.density(cell)) / total;
-      }
-      EXPECT_GT(chiSquareProbability(counts, expected), kSignificance) << "pixel " << pixel << " lane " << lane;
-    }
+  EXPECT_FALSE(guide.isUniform());
+  expectLanesFollow(guide.picture(), WavelengthTable::kDefensive, "picture");
+  const std::size_t black = kSide * kSide - 1;
+  for (const std::size_t pixel : {std::size_t{0}, std::size_t{kSide + 1}}) {
+    ASSERT_TRUE(guide.hasOwn(pixel)) << pixel;
+    expectLanesFollow(guide.pixel(pixel),
+                      WavelengthTable::kDefensive * static_cast<double>(WavelengthGuide::kPictureShare),
+                      "pixel " + std::to_string(pixel));
+    // Most of what is learnt there is red.
+    EXPECT_GT(guide.density(pixel).tail(50).sum(), 0.5) << pixel;
+    EXPECT_LT(guide.density(black).tail(50).sum(), 0.2);
+  }
+  EXPECT_FALSE(guide.hasOwn(black));
+  EXPECT_FALSE(guide.hasOwn(kSide * 8 + 8));
+}
+
+TEST(WavelengthDensityTest, EvenLightStaysUniform) {
+  const spectral::DomainSamples even = spectral::DomainSamples::LinSpaced(0.5, 1.0);
+  WavelengthGuide guide(8, 8, 4, even);
+  guide.build();
+  EXPECT_TRUE(guide.isUniform());
+  for (std::int32_t cell = 0; cell < kCells; ++cell) {
+    EXPECT_NEAR(guide.picture().density(cell) * kCells, 1.0F, 1e-3F) << cell;  // as exactly as u is spaced
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,19 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
+/// What guiding has learnt about a pixel.
+struct WavelengthDensity {
+  spectral::DomainSamples density;  ///< that wavelengths are drawn from, per nm
+  /// Share of 380 +- 0.5 ... 399 +- 0.5, 400 +- 0.5 ... nm (20 nm each, the last one 21) in |y(lambda)| F(lambda).
+  std::vector<double> histogram;
+  bool isOwn = false;  ///< whether the density is the pixel's own, not the picture's
+};
+
 /// Renders a scene progressively into a film.
 class Renderer {
  public:
   /// @param scene    stays alive as long as the renderer
-  /// @param firstSample  of the film; guiding and resampling take earlier ones as well, for what they teach
+  /// @param firstSample  of the film; resampling takes earlier ones as well, to fill its reservoirs
   /// @param threads  0: as many as there are
   /// @throws std::runtime_error where Embree cannot take the scene
   Renderer(const Scene& scene, const RenderOptions& options, std::uint64_t firstSample = 0, int threads = 0);
@@ -47,8 +56,8 @@ class Renderer {
   const Film& film() const;
   const RenderOptions& options() const;
 
-  /// Density of a pixel's wavelengths, per nm: uniform until the guide has learnt.
-  spectral::DomainSamples wavelengthDensity(int x, int y) const;
+  /// What was learnt about a pixel's wavelengths; none without guiding or before the first render().
+  std::optional<WavelengthDensity> wavelengthDensity(int x, int y) const;
 
   /// All state as bytes, for a checkpoint; restore() goes on from there, bit by bit.
   std::vector<unsigned char> state() const;
