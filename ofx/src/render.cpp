@@ -20,7 +20,7 @@ namespace {
 constexpr int kChunk = 512;
 /// Pixels that a worker takes at a time, about: often enough to notice an abort, seldom enough to cost nothing.
 constexpr int kPixelsPerTurn = 1 << 15;
-using Chunk = std::array<float, 4 * kChunk>;
+using Chunk = std::array<float, 4 * std::size_t{kChunk}>;
 
 bool isFinite(const float* rgb) {
   return std::isfinite(rgb[0]) && std::isfinite(rgb[1]) && std::isfinite(rgb[2]);
@@ -43,23 +43,24 @@ void readRow(const PixelView& image, int x, int y, int count, float* rgba) {
 /// Applies a transform that is not homogeneous to premultiplied pixels: on the colours without their alpha. Pixels of
 /// alpha 0 carry no colour of their own and stay, and so does what division takes beyond the range of float.
 void applyUnpremultiplied(const PixelTransform& transform, const float* source, float* destination, int count) {
+  const auto pixels = static_cast<std::size_t>(count);
   Chunk colours;
-  for (int i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < pixels; ++i) {
     const float alpha = source[4 * i + 3];
-    for (int k = 0; k < 3; ++k) {
-      colours[static_cast<std::size_t>(4 * i + k)] = alpha > 0.0F ? source[4 * i + k] / alpha : 0.0F;
+    for (std::size_t k = 0; k < 3; ++k) {
+      colours[4 * i + k] = alpha > 0.0F ? source[4 * i + k] / alpha : 0.0F;
     }
-    colours[static_cast<std::size_t>(4 * i + 3)] = alpha;
+    colours[4 * i + 3] = alpha;
   }
-  const std::span<float> used(colours.data(), 4 * static_cast<std::size_t>(count));
+  const std::span<float> used(colours.data(), 4 * pixels);
   transform.apply(used, used);
-  for (int i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < pixels; ++i) {
     const float* colour = colours.data() + 4 * i;
     const float alpha = source[4 * i + 3];
     const std::array<float, 3> result = {colour[0] * alpha, colour[1] * alpha, colour[2] * alpha};
     const bool keep = !(alpha > 0.0F) || !isFinite(source + 4 * i) || !isFinite(result.data());
-    for (int k = 0; k < 3; ++k) {
-      destination[4 * i + k] = keep ? source[4 * i + k] : result[static_cast<std::size_t>(k)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      destination[4 * i + k] = keep ? source[4 * i + k] : result[k];
     }
     destination[4 * i + 3] = alpha;
   }
@@ -145,14 +146,14 @@ class WindowRenderer {
     if (m_job.hasMask) {
       readRow(m_job.mask, x, y, count, mask.data());
     }
-    for (int i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       float weight = m_mix;
       if (m_job.hasMask) {
-        const float value = mask[static_cast<std::size_t>(4 * i + 3)];
+        const float value = mask[4 * i + 3];
         // The comparisons also send NaN to 0.
         weight *= value > 0.0F ? (value < 1.0F ? value : 1.0F) : 0.0F;
       }
-      for (int k = 0; k < 3 && weight > 0.0F; ++k) {
+      for (std::size_t k = 0; k < 3 && weight > 0.0F; ++k) {
         float& pixel = pixels[4 * i + k];
         const float changed = result[4 * i + k];
         pixel = weight >= 1.0F ? changed : (1.0F - weight) * pixel + weight * changed;
