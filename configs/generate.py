@@ -36,10 +36,6 @@ CAMERAS = {
     "sigma_sd": "Sigma SDMerrill",
 }
 
-# Cameras whose pictures become those of others. What the Nikon and the Sigma cannot tell apart near the locus others can:
-# no table of the kind used here holds what goes out of them (mean CIEDE2000 above 10 and 2).
-SHOT_WITH = ("ricd", "canon_1d3", "canon_5d2", "red_mx")
-
 # What a set holds, in CIEDE2000 at the 99th percentile, and the most nodes along a side it may take for it: all of
 # configs/ is to stay below 15 MB.
 TOLERANCE = 1.0
@@ -156,8 +152,7 @@ def nights() -> Set:
 def cameras() -> Set:
     """A camera's picture as another camera would have seen the scene, both white-balanced."""
     result = Set(SMALL_SIZE)
-    for key in SHOT_WITH:
-        camera = CAMERAS[key]
+    for key, camera in CAMERAS.items():
         for other, target in CAMERAS.items():
             if key != other:
                 name = f"{key}_as_{other}"

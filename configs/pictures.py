@@ -106,9 +106,9 @@ def night_sheet(looks: Looks) -> None:
 
 
 def camera_sheet(looks: Looks) -> None:
-    sheet = Sheet([key.replace("_", " ") for key in generate.SHOT_WITH],
+    sheet = Sheet([key.replace("_", " ") for key in generate.CAMERAS],
                   [f"as {key.replace('_', ' ')}" for key in generate.CAMERAS])
-    for row, key in enumerate(generate.SHOT_WITH):
+    for row, key in enumerate(generate.CAMERAS):
         for column, other in enumerate(generate.CAMERAS):
             sheet.put(row, column, looks.before if key == other else looks.shown(f"{key}_as_{other}"))
     sheet.save("cameras")
@@ -132,7 +132,7 @@ def tables() -> str:
         lines.append(f"| {name} | " + " | ".join(figure(f"{name}_{n}") for n in ("000", "050", "100")) + " |")
     lines += ["| nd_03, nd_06, nd_09 | | | " + figure("nd_03") + " |", ""]
     lines += ["| shot with | " + " | ".join(f"as {key}" for key in generate.CAMERAS) + " |", "| --- " * (len(generate.CAMERAS) + 1) + "|"]
-    for key in generate.SHOT_WITH:
+    for key in generate.CAMERAS:
         cells = ["" if key == other else figure(f"{key}_as_{other}") for other in generate.CAMERAS]
         lines.append(f"| **{key}** | " + " | ".join(cells) + " |")
     return "\n".join(lines) + "\n"

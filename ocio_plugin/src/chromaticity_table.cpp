@@ -48,8 +48,9 @@ void sampleNodes(PlaneLattice& lattice, const ChromaticityPlane& plane, const Ch
       Eigen::Vector3d& node = lattice.nodes[lattice.index(i, j)];
       node = {point.x(), point.y(), 0.0};
       // Where the transform has no amount: its value at a point nearer to white.
-      for (double t = 1.0; t > 0.0; t -= 1.0 / 64.0) {
-        const auto answer = probe.ask(plane.white + t * (point - plane.white));
+      constexpr int kParts = 64;
+      for (int part = kParts; part > 0; --part) {
+        const auto answer = probe.ask(plane.white + static_cast<double>(part) / kParts * (point - plane.white));
         if (answer.isUsable) {
           node = answer.value;
           break;

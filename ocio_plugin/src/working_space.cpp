@@ -33,10 +33,10 @@ bool keepsGains(const PixelProcessor& toEngine) {
 WorkingSpace configSpace(const std::string& name, const OCIO::ConstColorSpaceRcPtr& space,
                          const spectral::DataLibrary& library, const OCIO::ConstConfigRcPtr& config) {
   if (space->isData()) {
-    throw InputError("$OCIO", "space", name, "holds data, not colours; name another space");
+    throw InputError("config", "space", name, "holds data, not colours; name another space");
   }
   if (!config->hasRole(kInterchangeRole)) {
-    throw InputError("$OCIO", "role", kInterchangeRole,
+    throw InputError("config", "role", kInterchangeRole,
                      "is missing; add it to the config (it names the config's ACES2065-1), or use a built-in space");
   }
   WorkingSpace working;
@@ -46,7 +46,7 @@ WorkingSpace configSpace(const std::string& name, const OCIO::ConstColorSpaceRcP
     working.toEngine = config->getProcessor(space->getName(), kInterchangeRole)->createGroupTransform();
     working.fromEngine = config->getProcessor(kInterchangeRole, space->getName())->createGroupTransform();
   } catch (const OCIO::Exception& error) {
-    throw InputError("$OCIO", "space", name, std::string("cannot be converted: ") + error.what());
+    throw InputError("config", "space", name, std::string("cannot be converted: ") + error.what());
   }
   working.isLinear = keepsGains(PixelProcessor(working.toEngine));
   working.isLog = !working.isLinear && spectral::lowerCase(space->getEncoding()) == "log";

@@ -68,35 +68,38 @@ class ReadyMade(unittest.TestCase):
         print(f"neutrals: channels differ by {worst:.1e}")
         self.assertLess(worst, 1e-4)
 
-    def test_checkers_find_nothing(self):
-        program = shutil.which("ociocheck")
-        if program is None:
-            self.skipTest("ociocheck is not installed (Debian: opencolorio-tools)")
-        check = subprocess.run([program, "--iconfig", CONFIGS / "metamer.ocio"], capture_output=True, text=True, timeout=600)
+    def check(self, folder):
+        """ociocheck and ociochecklut of a folder over all of configs/."""
+        check = subprocess.run([folder / "ociocheck", "--iconfig", CONFIGS / "metamer.ocio"], capture_output=True, text=True,
+                               timeout=600)
         said = check.stdout + check.stderr
         self.assertEqual(check.returncode, 0, said)
         for word in ("ERROR", "Error", "WARNING", "Warning", "failed", "NOT DEFINED"):
             self.assertNotIn(word, said)
         self.assertIn("Tests complete.", said)
-        for lut in sorted((CONFIGS / "luts").glob("*.ctf")):
-            run = subprocess.run(["ociochecklut", "-v", lut, "0.18", "0.18", "0.18"], capture_output=True, text=True, timeout=60)
+        luts = sorted((CONFIGS / "luts").glob("*.ctf"))
+        for lut in luts:
+            run = subprocess.run([folder / "ociochecklut", lut, "0.18", "0.18", "0.18"], capture_output=True, text=True, timeout=60)
             self.assertEqual(run.returncode, 0, f"{lut.name}: {run.stdout}{run.stderr}")
             for word in ("ERROR", "WARNING", "Warning"):
                 self.assertNotIn(word, run.stdout + run.stderr)
             values = [float(x.strip("[],")) for x in run.stdout.split()[-3:]]
             self.assertTrue(np.isfinite(values).all())
+        print(f"{folder}: ociocheck clean, ociochecklut clean over {len(luts)} files")
 
-    def test_newest_release_checks_what_ociocheck_does(self):
-        """Its wheel has no programs: the same by its interface."""
+    def test_checkers_find_nothing(self):
+        program = shutil.which("ociocheck", path="/usr/bin:/usr/local/bin")
+        if program is None:
+            self.skipTest("ociocheck is not installed (Debian: opencolorio-tools)")
+        self.check(Path(program).parent)
+
+    def test_checkers_of_the_newest_release_find_nothing(self):
+        # The wheel carries them as console scripts, from 2.5 on.
+        self.check(Path(sys.executable).parent)
         config = ocio.Config.CreateFromFile(str(CONFIGS / "metamer.ocio"))
-        config.validate()
         for role in ("scene_linear", "compositing_log", "color_timing", "data", "aces_interchange",
                      "cie_xyz_d65_interchange", "rendering", "reference", "default", "color_picking", "texture_paint", "matte_paint"):
             self.assertTrue(config.hasRole(role), role)
-        for lut in sorted((CONFIGS / "luts").glob("*.ctf")):
-            processor = ocio.Config.CreateRaw().getProcessor(ocio.FileTransform(src=str(lut)))
-            pixel = processor.getDefaultCPUProcessor().applyRGB([0.18, 0.18, 0.18])
-            self.assertTrue(np.isfinite(pixel).all(), lut.name)
 
     def test_certificates_say_what_they_are_of(self):
         for name in self.names:
