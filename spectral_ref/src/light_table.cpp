@@ -118,6 +118,8 @@ void LightTable::addShapes(const Scene& scene, const EmbreeScene& shapes) {
     if (rectangle.picture) {
       emitter.picture = &scene.pictures[*rectangle.picture];
       elements = static_cast<std::size_t>(emitter.picture->width) * static_cast<std::size_t>(emitter.picture->height);
+      emitter.inverseColumns = 1.0 / static_cast<double>(emitter.picture->width);
+      emitter.inverseRows = 1.0F / static_cast<float>(emitter.picture->height);
       emitter.area /= static_cast<float>(elements);
     } else {
       emitter.spectrum = rectangle.surface.emission->spectrum;
@@ -280,11 +282,35 @@ Eigen::Vector2f LightTable::onRectangle(const Emitter& emitter, std::uint32_t el
   if (emitter.picture == nullptr) {
     return {u, v};
   }
-  const auto width = static_cast<std::uint32_t>(emitter.picture->width);
-  const auto height = static_cast<std::uint32_t>(emitter.picture->height);
-  const std::uint32_t row = element / width;
-  return {(static_cast<float>(element % width) + u) / static_cast<float>(width),
-          1.0F - (static_cast<float>(row) + v) / static_cast<float>(height)};
+  // By a product: whole-number division would cost as much as all the rest. Halves keep it exact.
+  const auto row = static_cast<std::uint32_t>((static_cast<double>(element) + 0.5) * emitter.inverseColumns);
+  const std::uint32_t column = element - row * static_cast<std::uint32_t>(emitter.picture->width);
+  return {(static_cast<float>(column) + u) * static_cast<float>(emitter.inverseColumns),
+          1.0F - (static_cast<float>(row) + v) * emitter.inverseRows};
+}
+
+float LightTable::geometry(const LightPoint& point, const Vec3& from, const Vec3& normal) const {
+  const Emitter& emitter = m_emitters[m_emitterOfEntry[point.entry]];
+  const std::uint32_t element = point.entry - emitter.first;
+  Vec3 towards;
+  Vec3 area;
+  if (emitter.kind == Kind::Rectangle) {
+    const Eigen::Vector2f place = onRectangle(emitter, element, point.u, point.v);
+    towards = emitter.origin + emitter.edgeU * place.x() + emitter.edgeV * place.y() - from;
+    area = emitter.normal * emitter.area;
+  } else if (emitter.kind == Kind::Mesh) {
+    const auto corner = corners(*emitter.mesh, element);
+    const float root = std::sqrt(point.u);
+    const Vec3 edge1 = corner[1] - corner[0];
+    const Vec3 edge2 = corner[2] - corner[0];
+    towards = corner[0] + edge1 * (root * (1.0F - point.v)) + edge2 * (root * point.v) - from;
+    area = 0.5F * edge1.cross(edge2);
+  } else {
+    const LightSample light = located(point, from);
+    return light.pdf > 0.0F ? std::max(0.0F, light.direction.dot(normal)) * light.scale / light.pdf : 0.0F;
+  }
+  const float squared = towards.squaredNorm();
+  return std::max(0.0F, towards.dot(normal)) * std::max(0.0F, -towards.dot(area)) / (squared * squared);
 }
 
 LightSample LightTable::onArea(const Vec3& point, const Vec3& normal, float area, const Vec3& from) {

@@ -55,6 +55,9 @@ class LightTable {
   /// The same with the density that the point has once its entry is chosen.
   LightSample located(const LightPoint& point, const Vec3& from) const;
 
+  /// What located() comes to: the receiver's cosine times scale over density; 0 where the point is not seen.
+  float geometry(const LightPoint& point, const Vec3& from, const Vec3& normal) const;
+
   /// Density with which choose() and sample() at `from` find what a ray hit.
   float pdf(const Hit& hit, const Vec3& from, const Vec3& direction) const {
     return m_choice.probability(entryOf(hit)) * locatedPdf(hit, from, direction);
@@ -81,11 +84,11 @@ class LightTable {
   std::uint32_t environmentEmitter() const { return m_environment; }
   std::uint32_t environmentElement(const Vec3& direction) const;
 
-  /// Sum over lanes of radiance times a factor.
+  /// Sum over lanes of an entry's radiance times a factor.
   template <int C>
-  float response(std::uint32_t emitter, std::uint32_t element, const SpectrumTables& spectra,
-                 const std::array<std::uint16_t, C>& cells, const std::array<float, C>& factors) const {
-    const Emitter& source = m_emitters[emitter];
+  float response(std::uint32_t entry, const SpectrumTables& spectra, const std::array<std::uint16_t, C>& cells,
+                 const std::array<float, C>& factors) const {
+    const Emitter& source = m_emitters[m_emitterOfEntry[entry]];
     const auto ofSpectrum = [&](SpectrumId id) {
       const float* values = spectra.table(id);
       float sum = 0;
@@ -98,7 +101,7 @@ class LightTable {
       return ofSpectrum(source.spectrum);
     }
     const EmitterPicture& picture = *source.picture;
-    const float* drives = picture.drives.data() + std::size_t{element} * picture.emitters.size();
+    const float* drives = picture.drives.data() + std::size_t{entry - source.first} * picture.emitters.size();
     float sum = 0;
     for (std::size_t k = 0; k < picture.emitters.size(); ++k) {
       sum += drives[k] * ofSpectrum(picture.emitters[k]);
@@ -138,6 +141,8 @@ class LightTable {
     float radius = 0;
     float cosBeam = 0;
     float cosCone = 0;
+    double inverseColumns = 1;  ///< of a rectangle's picture
+    float inverseRows = 1;
     const Mesh* mesh = nullptr;
   };
   static Eigen::Vector2f onRectangle(const Emitter& emitter, std::uint32_t element, float u, float v);

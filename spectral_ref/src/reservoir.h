@@ -89,12 +89,13 @@ class ReservoirSampler {
 
   /// p-hat: (4.15) with the BSDF in, over the lanes that `factor` chooses.
   float target(const LightPoint& point, const ReservoirDomain<C>& domain) const {
-    const Seen seen = look(point, domain);
-    if (!(seen.geometry > 0.0F)) {
+    const float geometry = m_cuts.isNear(domain.block)
+                               ? look(point, domain).geometry
+                               : m_lights.geometry(point, domain.position(), domain.normal()) * kInversePi;
+    if (!(geometry > 0.0F)) {
       return 0.0F;
     }
-    return seen.geometry *
-           m_lights.template response<C>(seen.light.emitter, seen.light.element, m_spectra, domain.cell, domain.factor);
+    return geometry * m_lights.template response<C>(point.entry, m_spectra, domain.cell, domain.factor);
   }
 
   /// A fresh sample from candidates of the block's light cut (4.14, 4.17).
