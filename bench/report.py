@@ -33,6 +33,8 @@ SECTIONS = {
     "hard_cases": ("Hard cases", "accuracy"),
     "growth": ("How cost grows", "performance"),
     "ofx": ("The OFX plug-in beside OpenColorIO", "performance"),
+    "renderer": ("The renderer's noise against time", "performance"),
+    "wavelengths": ("The renderer's wavelengths", "performance"),
 }
 PAGES = {
     "accuracy": ("Accuracy", "What each representation costs and how wrong it is, by the [error protocol](error_protocol.md)."),

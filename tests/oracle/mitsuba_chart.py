@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The chart scene of bench/renderer.py in Mitsuba: same geometry, spectra, camera and units.
+"""The chart scene of bench/render_scenes.py in Mitsuba: same geometry, spectra, camera and units.
 
 mitsuba_chart.py LAMP WIDTH HEIGHT SAMPLES VARIANT OUTPUT.npz
 """

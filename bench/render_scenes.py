@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes that the renderer is measured on, and runs of it: user CPU seconds, so that a busy machine blurs less.
+
+A picture's error is the mean square difference from a long render with another seed.
+"""
+
+import os
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import OpenEXR
+
+WIDTH, HEIGHT = 96, 64
+
+CHART = """metamer_scene: 1
+film: {{width: {width}, height: {height}}}
+camera: {{origin: [0, 0, 10], target: [0, 0, 0], up: [0, 1, 0], fov_x: 34}}
+integrator: {{max_depth: {depth}, wavelengths: {lanes}}}
+spectra: {{lamp: {{illuminant: {lamp}, scale: 0.5}}}}
+shapes:
+  - chart: {{set: colorchecker, center: [0, 0, 0], half_u: [3, 0, 0], half_v: [0, 2, 0]}}
+  - rectangle: {{center: [-3, 4, 6], half_u: [0.3, 0, 0], half_v: [0, 0, 0.3]}}
+    emission: lamp
+"""
+GEL = """  - rectangle: {center: [-3, 3.8, 6], half_u: [2, 0, 0], half_v: [0, 0, 2]}
+    gel: Lee 106 Primary Red
+"""
+BOX = """metamer_scene: 1
+film: {{width: {width}, height: {height}}}
+camera: {{origin: [0, 1.2, 7], target: [0, 1.2, 0], up: [0, 1, 0], fov_x: 40}}
+integrator: {{max_depth: 2, wavelengths: 4}}
+spectra: {{grey: {{constant: 0.5}}}}
+shapes:
+{lights}
+  - rectangle: {{center: [0, 0, 1], half_u: [2, 0, 0], half_v: [0, 0, -2]}}
+    diffuse: grey
+  - rectangle: {{center: [0, 1.5, -1], half_u: [2, 0, 0], half_v: [0, 1.5, 0]}}
+    diffuse: grey
+  - sphere: {{center: [-0.8, 0.5, 1.2], radius: 0.5}}
+    diffuse: grey
+  - chart: {{set: colorchecker, center: [0.6, 1.2, 0], half_u: [0.9, 0, 0], half_v: [0, 0.6, 0]}}
+"""
+# Above the picture's upper edge, facing down: it lights, and is not seen.
+WALL = """  - led_wall: {center: [0, 3.2, 0.5], half_u: [1.8, 0, 0], half_v: [0, 0, 1.4], picture: wall.exr,
+               emitters: [LED-B1, LED-V1, LED-RGB1], scale: 0.02}"""
+MANY = """  - mesh: many.obj
+    emission: LED-B1"""
+PRISM = """metamer_scene: 1
+film: {{width: {width}, height: {height}}}
+camera: {{origin: [0, 0, 8], target: [0, 0, 0], up: [0, 1, 0], fov_x: 40}}
+integrator: {{max_depth: 12, wavelengths: {lanes}}}
+spectra: {{lamp: {{illuminant: D65, scale: 0.2}}}}
+shapes:
+  - sphere: {{center: [0, 0, 0], radius: 1}}
+    dielectric: {{index: {{cauchy: [1.5, 0.03]}}}}
+  - rectangle: {{center: [0, 0, -2], half_u: [3, 0, 0], half_v: [0, 2, 0]}}
+    diffuse: 0.6
+  - rectangle: {{center: [-3, 2, 2], half_u: [0.5, 0.5, 0], half_v: [0, 0, 0.7]}}
+    emission: lamp
+"""
+
+
+def chart(lamp, lanes=4, depth=2, width=WIDTH, height=HEIGHT, extra=""):
+    return CHART.format(width=width, height=height, lamp=lamp, lanes=lanes, depth=depth) + extra
+
+
+def box(lights):
+    return BOX.format(width=WIDTH, height=HEIGHT, lights=lights)
+
+
+def prism(lanes):
+    return PRISM.format(width=WIDTH, height=HEIGHT, lanes=lanes)
+
+
+def write_lights(folder):
+    """wall.exr, 32 x 18 LEDs of different drives, and many.obj, 100,000 small emitting triangles."""
+    rng = np.random.default_rng(5)
+    y, x = np.mgrid[0:18, 0:32] / np.array([18, 32])[:, None, None]
+    picture = np.stack([np.exp(-8 * (x - 0.3) ** 2), 0.2 + x, np.exp(-9 * (y - 0.5) ** 2)], -1)
+    picture = (picture * rng.uniform(0, 1, (18, 32, 1)) ** 3).astype(np.float32)
+    OpenEXR.File({}, {"RGB": picture}).write(str(folder / "wall.exr"))
+    # Near the back wall, facing it: those nearby light a point, and power says nothing of that. The camera sees their
+    # black backs.
+    count = 100_000
+    centres = rng.uniform([-1.9, 0.05, -0.9], [1.9, 2.9, -0.6], (count, 1, 3))
+    corners = centres + 3e-3 * np.array([[0, 0, 0], [0, 1, 0], [1, 0, 0]])
+    lines = [f"v {a:.6f} {b:.6f} {c:.6f}" for a, b, c in corners.reshape(-1, 3)]
+    lines += [f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}" for i in range(count)]
+    (folder / "many.obj").write_text("\n".join(lines) + "\n")
+
+
+class Runs:
+    """Runs of one program in a folder of its own."""
+
+    def __init__(self, bin_folder):
+        self.program = bin_folder / "spectral_ref"
+        self._folder = tempfile.TemporaryDirectory()
+        self.folder = Path(self._folder.name)
+
+    def render(self, scene, samples, *options, seed=1):
+        """X, Y and Z; user seconds; peak memory in MiB."""
+        (self.folder / "scene.yaml").write_text(scene)
+        output = self.folder / "picture.exr"
+        process = subprocess.Popen([self.program, "render", "scene.yaml", "-o", output, "--spp", str(samples), "--seed",
+                                    str(seed), *options], cwd=self.folder)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        if process.returncode != 0:
+            raise RuntimeError(f"spectral_ref: exit status {process.returncode}")
+        channels = OpenEXR.File(str(output), separate_channels=True).channels()
+        picture = np.stack([channels[name].pixels.astype(float) for name in ("R", "G", "B")])
+        return picture, usage.ru_utime, usage.ru_maxrss / 1024
+
+    def start(self, scene):
+        """Seconds to start the program and read the scene."""
+        return float(np.median([self.render(scene, 1)[1] for _ in range(5)]))
+
+    def costs(self, scene, truth, samples, variants, seeds=3):
+        """Of each variant, {name: options}: MSE of X, Y and Z, mean over seeds, and the median seconds of a run without
+        the start. Variants take turns."""
+        start = self.start(scene)
+        errors = {name: [] for name in variants}
+        seconds = {name: [] for name in variants}
+        for seed in range(1, seeds + 1):
+            for name, options in variants.items():
+                picture, spent, _ = self.render(scene, samples, *options, seed=seed)
+                errors[name].append(((picture - truth) ** 2).mean(axis=(1, 2)))
+                seconds[name].append(spent)
+        return {name: {"samples": samples, "mse": [float(v) for v in np.mean(errors[name], axis=0)],
+                       "seconds": max(float(np.median(seconds[name])) - start, 1e-3)} for name in variants}
+
+
+def price(cost, channel=1):
+    """Time x MSE, which does not depend on how long one renders: noise falls with the time spent."""
+    return cost["seconds"] * cost["mse"][channel]
