@@ -176,8 +176,8 @@ const RenderOptions& Renderer::options() const {
   return m_state->options;
 }
 
-std::vector<unsigned char> Renderer::state() const {
-  StateWriter writer;
+void Renderer::writeState(const ByteSink& sink) const {
+  StateWriter writer(sink);
   writer.put(kStateVersion);
   writer.put(m_state->prepared.scene.fingerprint);
   writer.put(m_state->options.seed);
@@ -188,7 +188,6 @@ std::vector<unsigned char> Renderer::state() const {
   writer.put(m_state->film.refused);
   writer.putAll(m_state->film.sums());
   m_state->tracer->save(writer);
-  return std::move(writer).take();
 }
 
 void Renderer::restore(const std::vector<unsigned char>& state, const std::string& where) {
