@@ -229,7 +229,7 @@ class RenderJob {
   /// A checkpoint that cannot be written does not end the render: it is said once.
   void saveCheckpoint() {
     try {
-      writeCheckpoint(m_renderer->state(), m_checkpoint);
+      writeCheckpoint([this](const ByteSink& sink) { m_renderer->writeState(sink); }, m_checkpoint);
     } catch (const std::exception& error) {
       if (!m_hasWarned) {
         warn(std::string(error.what()) + " (the render goes on without checkpoints)");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/spectral_ref/checkpoint.h"
 
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <string_view>
@@ -13,30 +16,91 @@
 namespace metamer::spectral_ref {
 namespace {
 
-std::uint64_t checkSum(const std::vector<unsigned char>& bytes, std::size_t size) {
-  // Word by word: a checkpoint may be a gigabyte.
-  Fingerprint sum;
-  std::uint64_t mixed = 0;
-  std::size_t i = 0;
-  for (; i + sizeof(std::uint64_t) <= size; i += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, sizeof word);
-    mixed = (mixed ^ word) * 0x9e3779b97f4a7c15U;
-    mixed ^= mixed >> 32U;
+/// Of bytes in pieces, all but the last a whole number of words: a checkpoint may be a gigabyte.
+class CheckSum {
+ public:
+  static constexpr std::size_t kWord = sizeof(std::uint64_t);
+
+  void add(const unsigned char* bytes, std::size_t size) {
+    std::size_t i = 0;
+    for (; i + kWord <= size; i += kWord) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + i, kWord);
+      m_mixed = (m_mixed ^ word) * 0x9e3779b97f4a7c15U;
+      m_mixed ^= m_mixed >> 32U;
+    }
+    m_rest.add(bytes + i, size - i);
   }
-  sum.add(&mixed, sizeof mixed);
-  sum.add(bytes.data() + i, size - i);
-  return sum.value();
-}
+  std::uint64_t value() const {
+    Fingerprint sum = m_rest;
+    sum.add(&m_mixed, sizeof m_mixed);
+    return sum.value();
+  }
+
+ private:
+  std::uint64_t m_mixed = 0;
+  Fingerprint m_rest;
+};
+
+/// Gathers small pieces, and writes and sums large ones.
+class CheckpointFile {
+ public:
+  explicit CheckpointFile(const std::filesystem::path& file)
+      : m_pending(file), m_stream(m_pending.path(), std::ios::binary) {
+    m_buffer.reserve(kBuffer);
+  }
+
+  void add(const void* bytes, std::size_t size) {
+    const auto* from = static_cast<const unsigned char*>(bytes);
+    while (size > 0) {
+      const std::size_t count = std::min(size, kBuffer - m_buffer.size());
+      m_buffer.insert(m_buffer.end(), from, from + count);
+      from += count;
+      size -= count;
+      if (m_buffer.size() == kBuffer) {
+        flush();
+      }
+    }
+  }
+  void finish() {
+    flush();
+    const std::uint64_t sum = m_sum.value();
+    m_stream.write(reinterpret_cast<const char*>(&sum), sizeof sum);
+    m_stream.close();
+    check();
+    m_pending.commit();
+  }
+
+ private:
+  static constexpr std::size_t kBuffer = std::size_t{1} << 20U;
+  static_assert(kBuffer % CheckSum::kWord == 0);
+
+  void flush() {
+    m_sum.add(m_buffer.data(), m_buffer.size());
+    m_stream.write(reinterpret_cast<const char*>(m_buffer.data()), static_cast<std::streamsize>(m_buffer.size()));
+    check();
+    m_buffer.clear();
+  }
+  void check() const {
+    if (!m_stream) {
+      throw spectral::InputError(
+          m_pending.target().string(), "checkpoint", "",
+          "cannot be written: " + std::string(std::strerror(errno)) + "; an older one stays as it was, make room");
+    }
+  }
+
+  spectral::PendingFile m_pending;
+  std::ofstream m_stream;
+  std::vector<unsigned char> m_buffer;
+  CheckSum m_sum;
+};
 
 }  // namespace
 
-void writeCheckpoint(const std::vector<unsigned char>& state, const std::filesystem::path& file) {
-  std::vector<unsigned char> bytes = state;
-  const std::uint64_t sum = checkSum(bytes, bytes.size());
-  const auto* sumBytes = reinterpret_cast<const unsigned char*>(&sum);
-  bytes.insert(bytes.end(), sumBytes, sumBytes + sizeof sum);
-  spectral::writeWholeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+void writeCheckpoint(const std::function<void(const ByteSink&)>& state, const std::filesystem::path& file) {
+  CheckpointFile checkpoint(file);
+  state([&](const void* bytes, std::size_t size) { checkpoint.add(bytes, size); });
+  checkpoint.finish();
 }
 
 std::vector<unsigned char> readCheckpoint(const std::filesystem::path& file) {
@@ -52,7 +116,9 @@ std::vector<unsigned char> readCheckpoint(const std::filesystem::path& file) {
   if (bytes.size() >= sizeof stored) {
     std::memcpy(&stored, bytes.data() + bytes.size() - sizeof stored, sizeof stored);
     bytes.resize(bytes.size() - sizeof stored);
-    if (checkSum(bytes, bytes.size()) == stored) {
+    CheckSum sum;
+    sum.add(bytes.data(), bytes.size());
+    if (sum.value() == stored) {
       return bytes;
     }
   }

@@ -175,8 +175,8 @@ const RenderOptions& Renderer::options() const {
   return m_state->options;
 }
 
-std::vector<unsigned char> Renderer::state() const {
-  StateWriter writer;
+void Renderer::writeState(const ByteSink& sink) const {
+  StateWriter writer(sink);
   writer.put(kStateVersion);
   writer.put(m_state->prepared.scene.fingerprint);
   writer.put(m_state->options.seed);
@@ -187,7 +187,6 @@ std::vector<unsigned char> Renderer::state() const {
   writer.put(m_state->film.refused);
   writer.putAll(m_state->film.sums());
   m_state->tracer->save(writer, m_state->cursor);
-  return std::move(writer).take();
 }
 
 void Renderer::restore(const std::vector<unsigned char>& state, const std::string& where) {

@@ -8,33 +8,29 @@
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral_ref/checkpoint.h"
 
 namespace metamer::spectral_ref {
 
-/// Appends plain values to bytes.
+/// Hands on plain values as bytes.
 class StateWriter {
  public:
+  explicit StateWriter(const ByteSink& sink) : m_sink(sink) {}
+
   template <typename T>
   void put(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    append(&value, sizeof value);
+    m_sink(&value, sizeof value);
   }
   template <typename T>
   void putAll(const std::vector<T>& values) {
     static_assert(std::is_trivially_copyable_v<T>);
     put(values.size());
-    append(values.data(), values.size() * sizeof(T));
+    m_sink(values.data(), values.size() * sizeof(T));
   }
-  std::vector<unsigned char> take() && { return std::move(m_bytes); }
 
  private:
-  void append(const void* data, std::size_t size) {
-    if (size > 0) {
-      m_bytes.resize(m_bytes.size() + size);
-      std::memcpy(m_bytes.data() + (m_bytes.size() - size), data, size);
-    }
-  }
-  std::vector<unsigned char> m_bytes;
+  const ByteSink& m_sink;
 };
 
 /// Takes them out again.

@@ -20,15 +20,33 @@ class CheckpointTest : public testing::Test {
   }
 };
 
+/// A state in pieces of odd sizes.
+std::function<void(const ByteSink&)> handing(const std::vector<unsigned char>& state) {
+  return [&state](const ByteSink& sink) {
+    for (std::size_t i = 0; i < state.size(); i += 333333) {
+      sink(state.data() + i, std::min(state.size() - i, std::size_t{333333}));
+    }
+  };
+}
+
+TEST_F(CheckpointTest, ALargeOneComesBackAsItWas) {
+  std::vector<unsigned char> state(5'000'003);
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    state[i] = static_cast<unsigned char>(i * i / 7);
+  }
+  writeCheckpoint(handing(state), file("large"));
+  EXPECT_EQ(readCheckpoint(file("large")), state);
+}
+
 TEST_F(CheckpointTest, ComesBackAsItWas) {
   const std::vector<unsigned char> state = {1, 2, 3, 0, 255, 7, 8, 9, 10, 11};
-  writeCheckpoint(state, file("whole"));
+  writeCheckpoint(handing(state), file("whole"));
   EXPECT_EQ(readCheckpoint(file("whole")), state);
 }
 
 TEST_F(CheckpointTest, DamageIsNoticed) {
   std::vector<unsigned char> state(1000, 5);
-  writeCheckpoint(state, file("damaged"));
+  writeCheckpoint(handing(state), file("damaged"));
   std::string bytes(1008, '\0');
   std::ifstream(file("damaged"), std::ios::binary).read(bytes.data(), 1008);
   for (const std::size_t place : {std::size_t{0}, std::size_t{500}, std::size_t{1007}}) {
@@ -46,7 +64,7 @@ TEST_F(CheckpointTest, OfAnotherRenderIsRefused) {
   const Scene scene = sceneOf(chartScene(4, "A", 12, 8));
   Renderer renderer(scene, {});
   renderer.render(2, 1e9);
-  const auto state = renderer.state();
+  const auto state = stateOf(renderer);
   const Scene other = sceneOf(chartScene(4, "D65", 12, 8));
   EXPECT_NE(errorOf([&] { Renderer(other, {}).restore(state, "x"); }).find("scene"), std::string::npos);
   RenderOptions seed;

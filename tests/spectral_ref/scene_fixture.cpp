@@ -16,6 +16,15 @@ Film rendered(const Scene& scene, std::uint64_t samples, const RenderOptions& op
   return renderer.film();
 }
 
+std::vector<unsigned char> stateOf(const Renderer& renderer) {
+  std::vector<unsigned char> state;
+  renderer.writeState([&](const void* bytes, std::size_t size) {
+    const auto* first = static_cast<const unsigned char*>(bytes);
+    state.insert(state.end(), first, first + size);
+  });
+  return state;
+}
+
 AreaMean luminanceOver(const Film& film, int x, int y, int width, int height) {
   AreaMean result;
   double variance = 0;

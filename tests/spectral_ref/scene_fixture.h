@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "metamer/spectral_ref/film.h"
 #include "metamer/spectral_ref/renderer.h"
@@ -15,6 +16,9 @@ Scene sceneOf(const std::string& text);
 
 /// The film of a scene after some samples a pixel.
 Film rendered(const Scene& scene, std::uint64_t samples, const RenderOptions& options = {}, int threads = 0);
+
+/// All bytes of a renderer's state.
+std::vector<unsigned char> stateOf(const Renderer& renderer);
 
 /// Mean of Y over a rectangle of pixels and its standard error, from the pixels' variances.
 struct AreaMean {

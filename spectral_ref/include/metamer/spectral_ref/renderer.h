@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "metamer/spectral_ref/checkpoint.h"
 #include "metamer/spectral_ref/film.h"
 #include "metamer/spectral_ref/scene.h"
 
@@ -59,8 +60,8 @@ class Renderer {
   /// What was learnt about a pixel's wavelengths; none without guiding or before the first render().
   std::optional<WavelengthDensity> wavelengthDensity(int x, int y) const;
 
-  /// All state as bytes, for a checkpoint; restore() goes on from there, bit by bit.
-  std::vector<unsigned char> state() const;
+  /// All state as bytes, piece by piece: it may be a gigabyte. restore() goes on from there, bit by bit.
+  void writeState(const ByteSink& sink) const;
   /// @throws spectral::InputError where the bytes are not of this scene and these options
   /// @param where  what messages call the bytes
   void restore(const std::vector<unsigned char>& state, const std::string& where);
