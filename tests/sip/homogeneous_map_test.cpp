@@ -52,7 +52,8 @@ void expectSameBits(std::span<const float> a, std::span<const float> b, const st
 
 TEST(HomogeneousMapTest, AgainstItsTransform) {
   for (const auto& [inputLight, outputLight] : lightPairs()) {
-    const std::string name = inputLight + (" -> " + outputLight);
+    std::string name = inputLight;
+    name.append(" -> ").append(outputLight);
     const TransformSpec spec = specOf(inputLight, outputLight);
     const SpectralTransform transform(spec);
     const std::clock_t start = std::clock();
