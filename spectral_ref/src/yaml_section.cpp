@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "yaml_section.h"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <system_error>
 
 #include "metamer/spectral/near_names.h"
@@ -33,6 +36,28 @@ std::string rangeText(double low, double high) {
     return "must be a finite number, " + spectral::shortestNumber(low) + " or more";
   }
   return "must be a number from " + spectral::shortestNumber(low) + " to " + spectral::shortestNumber(high);
+}
+
+/// Takes no notice of what is parsed.
+class Ignored : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// YAML::LoadAll would not do: of a text that begins with a comma it makes documents without end.
+bool hasSecondDocument(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Ignored handler;
+  return parser.HandleNextDocument(handler) && parser.HandleNextDocument(handler);
 }
 
 }  // namespace
@@ -144,13 +169,14 @@ YamlValue YamlSection::require(const std::string& key, const std::string& remedy
 
 YamlValue parseYaml(const std::string& text, const std::string& where) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() != 1 || documents.front().IsNull()) {
-      throw InputError(where, "scene", "",
-                       documents.size() > 1 ? "holds more than one document; keep one scene a file"
-                                            : "is empty; a scene starts with 'metamer_scene: 1'");
+    if (hasSecondDocument(text)) {
+      throw InputError(where, "scene", "", "holds more than one document; keep one scene a file");
     }
-    return {documents.front(), where, ""};
+    const YAML::Node document = YAML::Load(text);
+    if (document.IsNull()) {
+      throw InputError(where, "scene", "", "is empty; a scene starts with 'metamer_scene: 1'");
+    }
+    return {document, where, ""};
   } catch (const YAML::Exception& error) {
     throw InputError(place(where, error.mark), "YAML", "", error.msg);
   }
