@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The LED-wall box of bench/renderer.py in Mitsuba: same geometry, spectra, camera and units.
+"""The LED-wall box of bench/render_scenes.py in Mitsuba: same geometry, spectra, camera and units.
 
 Its textures hold no mixtures of given spectra, so each pixel of the wall is an area light with a spectrum of its own,
 chosen in proportion to its luminance.
