@@ -80,14 +80,20 @@ TEST(ConfigWriterTest, RecipesThatDifferInAdaptationShareAFile) {
     EXPECT_EQ(report.entries[static_cast<std::size_t>(k)].file, "luts/sodium.ctf");
   }
   EXPECT_EQ(report.entries[3].file, "luts/warm.ctf");
-  // Each is what baking it alone gives, to what a table of 17 is off by anyhow.
+  // A shared table is fitted for the middle adaptation: an end may lose up to a quarter of its error to the other, and
+  // together they lose nothing against tables of their own.
+  double shared = 0;
+  double ofTheirOwn = 0;
   for (const ConfigEntry& entry : report.entries) {
     BakeOptions options;
     options.size = 17;
     const Certificate alone = bake(entry.certificate.recipe, testLibrary(), options).certificate;
-    EXPECT_NEAR(entry.certificate.error.mean, alone.error.mean, 0.2 * alone.error.mean) << entry.name;
+    EXPECT_LE(entry.certificate.error.mean, 1.25 * alone.error.mean) << entry.name;
+    shared += entry.certificate.error.mean;
+    ofTheirOwn += alone.error.mean;
     EXPECT_TRUE(std::filesystem::exists(folder / entry.file));
   }
+  EXPECT_LE(shared, ofTheirOwn);
   const auto json = nlohmann::json::parse(contentsOf(folder / "luts" / "sodium_50.json"));
   EXPECT_EQ(json["recipe"]["output"]["adaptation"], 0.5);
   EXPECT_EQ(json["transform"]["sha256"], sha256(contentsOf(folder / "luts/sodium.ctf")));
