@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-DATA = Path(os.environ["METAMER_DATA"])
+DATA = Path(os.environ.get("METAMER_DATA", Path(__file__).resolve().parents[2] / "data"))
 WAVELENGTHS = np.arange(380, 781)
 
 
