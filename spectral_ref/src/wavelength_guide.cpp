@@ -18,9 +18,9 @@ constexpr int kJudged = 16;
 /// Relative variance of that many samples with uniform lanes up to which wavelengths stay uniform: other noise is
 /// larger then, and reflectances may be less smooth in a density drawn from than in wavelength.
 constexpr double kLittleVariance = 1.5e-4;
-/// Relative variance of a pixel's light drawn from the picture's density from which the pixel gets its own: a quarter of
-/// the samples or less then serve it. Nearer ones are better off with the picture's smooth density: the steps between
-/// bins cost stratified samples more than a slope does.
+/// Relative variance of a pixel's light drawn from the picture's density from which the pixel gets its own: a quarter
+/// of the samples or less then serve it. Nearer ones are better off with the picture's smooth density: the steps
+/// between bins cost stratified samples more than a slope does.
 constexpr double kUnlike = 8.0;
 /// The same by bands, which show less of it, from which histograms are compared at all.
 constexpr float kUnlikeBands = 1.0F;
