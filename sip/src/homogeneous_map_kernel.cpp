@@ -93,7 +93,8 @@ struct Places {
   V length;  ///< largest |p|
 };
 
-HWY_INLINE Places placesOn(V px, V py, V length) {
+/// @param px, py, length  of pixels divided by `largest`
+HWY_INLINE Places placesOn(V px, V py, V length, V largest) {
   const Float d;
   const V halfReciprocal = hn::Div(hn::Set(d, 0.5F), hn::Max(length, hn::Set(d, kSmallest)));
   const auto cell = [&](V coordinate) {
@@ -101,7 +102,7 @@ HWY_INLINE Places placesOn(V px, V py, V length) {
   };
   const V x = hn::Mul(px, halfReciprocal);
   const V y = hn::Mul(py, halfReciprocal);
-  return {x, y, cell(x), cell(y), length};
+  return {x, y, cell(x), cell(y), hn::Mul(length, largest)};
 }
 
 /// The patch of a cell of a face, given as in Places.
@@ -156,7 +157,7 @@ HWY_INLINE void applyPatch(const Map::Patch& patch, const Places& places, Mask m
 }
 
 /// Colours beyond the front face are rare (strong negatives): one lane at a time.
-HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, Mask far, Colours& result) {
+HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, V largest, Mask far, Colours& result) {
   const Float d;
   HWY_ALIGN std::array<std::array<float, kMostLanes>, 3> lanes;
   hn::Store(px, d, lanes[0].data());
@@ -170,7 +171,7 @@ HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, Mask far, Colours& 
       axis = std::abs(p[k]) > std::abs(p[axis]) ? k : axis;
     }
     const Places places =
-        placesOn(hn::Set(d, p[(axis + 1) % 3]), hn::Set(d, p[(axis + 2) % 3]), hn::Set(d, std::abs(p[axis])));
+        placesOn(hn::Set(d, p[(axis + 1) % 3]), hn::Set(d, p[(axis + 2) % 3]), hn::Set(d, std::abs(p[axis])), largest);
     const Mask own = hn::RebindMask(d, hn::Eq(hn::Iota(Int(), 0), hn::Set(Int(), static_cast<std::int32_t>(lane))));
     applyPatch(patchOf(map, 2 * axis + (p[axis] > 0.0F ? 0 : 1), hn::GetLane(places.cellX), hn::GetLane(places.cellY)),
                places, own, result);
@@ -224,6 +225,12 @@ HWY_INLINE bool begin(const Map& map, const float* source, float* destination, P
     store(result, a, destination);
     return false;
   }
+  // Quotients, rounded once, are the same at every exposure to the last bit, and so is all that follows from them: else
+  // a steep transform would show the rounding of the place.
+  const V largest = hn::Max(hn::Max(hn::Abs(r), hn::Abs(g)), hn::Max(hn::Abs(b), hn::Set(d, kSmallest)));
+  r = hn::Div(r, largest);
+  g = hn::Div(g, largest);
+  b = hn::Div(b, largest);
   const float* cube = map.cubeFromRgb.data();
   const V px = dot(cube, r, g, b);
   const V py = dot(cube + 3, r, g, b);
@@ -231,9 +238,9 @@ HWY_INLINE bool begin(const Map& map, const float* source, float* destination, P
   const Mask front = hn::Ge(pz, hn::Max(hn::Abs(px), hn::Abs(py)));
   const Mask far = hn::AndNot(front, rest);
   if (HWY_UNLIKELY(!hn::AllFalse(d, far))) {
-    applyFar(map, px, py, pz, far, result);
+    applyFar(map, px, py, pz, largest, far, result);
   }
-  pending = {placesOn(px, py, pz), hn::And(rest, front), result, a, destination};
+  pending = {placesOn(px, py, pz, largest), hn::And(rest, front), result, a, destination};
   return true;
 }
 
