@@ -91,8 +91,9 @@ def parameter_change(effect, rounds):
     effect.connect(source, destination)
     rows = []
     for name, settings in (("daylight to blackbody", {"outputIlluminant": "Blackbody"}),
-                           ("daylight to sodium, a gel", {"outputIlluminant": "HP1", "outputFilter": "Lee 204 Full C.T. Orange"})):
-        effect.set(inputIlluminant="D65", **settings)
+                           ("daylight to sodium, a gel", {"outputIlluminant": "HP1", "outputFilter": "Lee 204 Full C.T. Orange"}),
+                           ("fluorescent to D50", {"inputIlluminant": "FL11", "outputIlluminant": "D50"})):
+        effect.set(**{"inputIlluminant": "D65"} | settings)
         wall, cpu = [], []
         for i in range(rounds):
             started, used = time.perf_counter(), time.process_time()
@@ -102,7 +103,7 @@ def parameter_change(effect, rounds):
             cpu.append(time.process_time() - used)
         rows.append({"change": name, "milliseconds": 1e3 * float(np.median(wall)), "least": 1e3 * min(wall),
                      "processor_milliseconds": 1e3 * float(np.median(cpu))})
-        effect.set(outputFilter="None", outputDensity=1.0, adaptation=0.0)
+        effect.set(inputIlluminant="D65", outputFilter="None", outputDensity=1.0, adaptation=0.0)
     return rows
 
 

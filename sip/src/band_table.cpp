@@ -3,7 +3,7 @@
 
 namespace metamer::sip {
 
-BandTable::BandTable(const Eigen::Matrix3Xd& weights) {
+BandTable::BandTable(const Eigen::Matrix3Xd& weights) : m_channels(weights.transpose().array()) {
   m_weights.resize(static_cast<std::size_t>(weights.cols()));
   for (Eigen::Index b = 0; b < weights.cols(); ++b) {
     m_weights[static_cast<std::size_t>(b)] << weights.col(b).array(), 0.0;

@@ -28,6 +28,8 @@ class BandTable {
 
   int bandCount() const { return static_cast<int>(m_weights.size()); }
   const Eigen::Array4d& weight(int band) const { return m_weights[static_cast<std::size_t>(band)]; }
+  /// The weights again, a column a channel.
+  const Eigen::ArrayX3d& channels() const { return m_channels; }
   RunSums sumsOver(int first, int end) const;
 
  private:
@@ -36,6 +38,7 @@ class BandTable {
   void addBands(int from, int to, int first, RunSums& sums) const;
 
   std::vector<Eigen::Array4d> m_weights;
+  Eigen::ArrayX3d m_channels;
   std::vector<RunSums> m_blocks;
 };
 

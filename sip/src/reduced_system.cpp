@@ -165,14 +165,17 @@ void ReducedSystem::invert(const Eigen::Matrix3d& schur) {
   m_start = inverse * right;
 }
 
-void ReducedSystem::evaluate(const Eigen::Vector4d& unknowns, Eigen::VectorXd& spectrum) const {
+void ReducedSystem::evaluate(const Eigen::Vector4d& unknowns, Trial& trial) const {
   const auto along = [&unknowns](const Eigen::Array4d& lanes) {
     return lanes[0] * unknowns[0] + lanes[1] * unknowns[1] + lanes[2] * unknowns[2];
   };
+  const Eigen::ArrayX3d& channels = m_table.channels();
+  trial.multipliers = unknowns.head<3>();
+  trial.pull = channels.col(0) * unknowns[0] + channels.col(1) * unknowns[1] + channels.col(2) * unknowns[2];
   if (m_fixed.size() > 0) {
-    spectrum = m_fixed;
+    trial.spectrum = m_fixed;
   } else {
-    spectrum.setZero(m_table.bandCount());
+    trial.spectrum.setZero(m_table.bandCount());
   }
   for (int i = 0; i < m_runCount; ++i) {
     const Run& run = m_runs[static_cast<std::size_t>(i)];
@@ -182,26 +185,53 @@ void ReducedSystem::evaluate(const Eigen::Vector4d& unknowns, Eigen::VectorXd& s
     double curve = 0.0;
     for (int b = run.first; b < run.end; ++b) {
       line += slope;
-      spectrum[b] += line - curve;
-      curveSlope += along(m_table.weight(b));
+      trial.spectrum[b] += line - curve;
+      curveSlope += trial.pull[b];
       curve += curveSlope;
     }
   }
 }
 
-void ReducedSystem::solve(const Eigen::Vector3d& target, bool refine, Eigen::VectorXd& spectrum,
-                          Eigen::Vector3d& multipliers) const {
+void ReducedSystem::solve(const Eigen::Vector3d& target, bool refine, Trial& trial) const {
   Eigen::Vector4d unknowns = m_start + m_inverse * target;
-  evaluate(unknowns, spectrum);
+  evaluate(unknowns, trial);
   if (refine) {
     Eigen::Array4d sum = Eigen::Array4d::Zero();
     for (int b = 0; b < m_table.bandCount(); ++b) {
-      sum += m_table.weight(b) * spectrum[b];
+      sum += m_table.weight(b) * trial.spectrum[b];
     }
     unknowns += m_inverse * (target - sum.matrix().head<3>());
-    evaluate(unknowns, spectrum);
+    evaluate(unknowns, trial);
   }
-  multipliers = unknowns.head<3>();
+}
+
+Eigen::Matrix3d ReducedSystem::response(const Eigen::MatrixX3d& functionals) const {
+  // Row k: sum over the free bands of F[k] times what a unit multiplier makes there.
+  std::array<Eigen::Array4d, 3> sums = {Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero()};
+  for (int i = 0; i < m_runCount; ++i) {
+    const Run& run = m_runs[static_cast<std::size_t>(i)];
+    Eigen::Array4d line = run.base;
+    Eigen::Array4d curveSlope = Eigen::Array4d::Zero();
+    Eigen::Array4d curve = Eigen::Array4d::Zero();
+    for (int b = run.first; b < run.end; ++b) {
+      line += run.slope;
+      const Eigen::Array4d unit = line - curve;
+      sums[0] += functionals(b, 0) * unit;
+      sums[1] += functionals(b, 1) * unit;
+      sums[2] += functionals(b, 2) * unit;
+      curveSlope += m_table.weight(b);
+      curve += curveSlope;
+    }
+  }
+  Eigen::Matrix3d perMultiplier;
+  for (int row = 0; row < 3; ++row) {
+    perMultiplier.row(row) = sums[static_cast<std::size_t>(row)].head<3>().matrix().transpose();
+  }
+  Eigen::Matrix3d matrix = perMultiplier * m_inverse.topRows<3>();
+  if (m_nothingHeld) {
+    matrix += functionals.colwise().sum().transpose() * m_inverse.row(3);
+  }
+  return matrix;
 }
 
 Eigen::MatrixX3d ReducedSystem::response() const {

@@ -6,19 +6,22 @@
 #include <cstdint>
 
 #include "band_table.h"
-#include "metamer/sip/smoothest_spectrum.h"
+#include "held_bands.h"
 
 namespace metamer::sip {
-
-/// What holds a band.
-enum class BandState : std::int8_t { Free, AtZero, AtOne };
-using BandStates = std::array<BandState, kConvergedBandCount>;
 
 /// A curve F that the spectrum follows where nothing pulls it: the prior itself, or the answer to a push at one band.
 /// The ends are natural: F[-1] = F[0] and F[B] = F[B-1] + endSlope.
 struct Guide {
   Eigen::VectorXd values;
   double endSlope = 0.0;
+};
+
+/// A spectrum and what pulls at it.
+struct Trial {
+  Eigen::VectorXd spectrum;
+  Eigen::Vector3d multipliers;
+  Eigen::ArrayXd pull;  ///< A^T multipliers
 };
 
 /// The Karush-Kuhn-Tucker system of the smoothest spectrum for one choice of held bands.
@@ -36,25 +39,24 @@ class ReducedSystem {
   /// @param guide  F, or null for zero. All arguments outlive the system.
   ReducedSystem(const BandTable& table, const BandStates& states, const Guide* guide, Held held);
 
-  /// Spectrum whose weights sum to `target`, and the three multipliers. One step of iterative refinement where
-  /// `refine`: near the spectral locus the free bands' weights are almost collinear and half the digits are lost.
-  void solve(const Eigen::Vector3d& target, bool refine, Eigen::VectorXd& spectrum, Eigen::Vector3d& multipliers) const;
+  /// Spectrum whose weights sum to `target`, with its multipliers. One step of iterative refinement where `refine`:
+  /// near the spectral locus the free bands' weights are almost collinear and half the digits are lost.
+  void solve(const Eigen::Vector3d& target, bool refine, Trial& trial) const;
 
   /// How the bound of a held band pushes: minus the second difference of R, less the pull there.
-  double pushAt(int band, const Eigen::VectorXd& spectrum, const Eigen::Vector3d& multipliers) const {
-    const double* r = spectrum.data() + band;
+  double pushAt(int band, const Trial& trial) const {
+    const double* r = trial.spectrum.data() + band;
     const double left = band > 0 ? r[0] - r[-1] : 0.0;
     const double right = band + 1 < m_table.bandCount() ? r[0] - r[1] : 0.0;
-    return left + right - pullAt(band, multipliers);
+    const double pull = trial.pull[band];
+    return left + right - (m_guide != nullptr ? pull + guideForce(band) : pull);
   }
-  /// A^T multipliers at a band, and minus the second difference of the guide.
-  double pullAt(int band, const Eigen::Vector3d& multipliers) const {
-    const Eigen::Array4d& weight = m_table.weight(band);
-    const double pull = weight[0] * multipliers[0] + weight[1] * multipliers[1] + weight[2] * multipliers[2];
-    return m_guide != nullptr ? pull + guideForce(band) : pull;
-  }
+  /// Minus the second difference of the guide; zero where there is none.
+  double guideForceAt(int band) const { return m_guide != nullptr ? guideForce(band) : 0.0; }
 
-  /// B x 3: the free bands' response to the target (zero on held bands).
+  /// F^T dR / dtarget, for F of B x 3.
+  Eigen::Matrix3d response(const Eigen::MatrixX3d& functionals) const;
+  /// dR / dtarget, B x 3 (zero on held bands).
   Eigen::MatrixX3d response() const;
 
   /// False where the free bands cannot reach every target: the answer is then the nearest in the least-squares sense.
@@ -76,7 +78,7 @@ class ReducedSystem {
   void addRun(int first, int end, Eigen::Matrix3d& schur);
   void fix(const Run& run);
   void invert(const Eigen::Matrix3d& schur);
-  void evaluate(const Eigen::Vector4d& unknowns, Eigen::VectorXd& spectrum) const;
+  void evaluate(const Eigen::Vector4d& unknowns, Trial& trial) const;
 
   const BandTable& m_table;
   const BandStates& m_states;

@@ -109,7 +109,7 @@ struct SpectralTransform::State {
   Eigen::Matrix3d responseFromRgb;  ///< white-normalised input response
   Eigen::Matrix3d rgbFromOutputResponse;
   Eigen::Matrix3Xd rgbFromSpectrum;  ///< 3 x B: output RGB from reflectance
-  Eigen::MatrixX3d spectrumToRgb;    ///< its transpose: columns, for fast sums
+  Eigen::MatrixX3d spectrumToRgb;    ///< its transpose
   Eigen::Matrix3Xd basis;            ///< directions the input light tells apart
   Eigen::Matrix3d extension;         ///< output RGB from the response that lies outside the cone
   std::optional<SmoothestSpectrumSolver> solver;
@@ -129,32 +129,37 @@ struct SpectralTransform::State {
     padded.head(basis.cols()) = basis.transpose() * response;
     return padded;
   }
-  /// B x 3 matrix that acts on the response itself.
+  /// Matrix that acts on the response itself, from one that acts on the target (both with three columns).
   Eigen::MatrixX3d onResponse(const Eigen::MatrixX3d& fromTarget) const {
     if (basis.cols() == 3) {
       return fromTarget;
     }
     return fromTarget.leftCols(basis.cols()) * basis.transpose();
   }
-  SmoothestSpectrumSolver::Solution solve(const Eigen::Vector3d& response, const ActiveSet* start = nullptr,
-                                          Eigen::MatrixX3d* linearPiece = nullptr) const {
+  SmoothestSpectrumSolver::Solution solve(const Eigen::Vector3d& response) const {
     std::optional<SmoothestSpectrumSolver::Solution> solution;
     if (prior) {
       const Eigen::VectorXd blend = prior->blend(response);
-      solution = solver->solve(target(response), &blend, start);
+      solution = solver->solve(target(response), &blend);
     } else {
-      solution = solver->solve(target(response), nullptr, start, linearPiece);
+      solution = solver->solve(target(response));
     }
     // The cone is drawn in from the set of feasible responses, so there is a solution; should rounding deny it,
     // the unbounded spectrum stands in.
     if (!solution) {
       solution.emplace();
       solution->reflectance = solver->unconstrained() * target(response);
-      if (linearPiece != nullptr) {
-        *linearPiece = solver->unconstrained();
-      }
     }
     return *std::move(solution);
+  }
+  /// Output RGB from the target (3 x 3) near a response, with the bands held there.
+  Eigen::Matrix3d linearise(const Eigen::Vector3d& response, const ActiveSet* guess, ActiveSet& active) const {
+    auto piece = solver->linearise(target(response), spectrumToRgb, guess);
+    if (!piece) {
+      return rgbFromSpectrum * solver->unconstrained();
+    }
+    active = std::move(piece->active);
+    return piece->matrix;
   }
 };
 
@@ -293,17 +298,10 @@ SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vecto
   const auto projection = m_state->domain().project(response);
   Eigen::Matrix3d inside = Eigen::Matrix3d::Zero();
   if (!projection.point.isZero(0.0)) {
-    Eigen::MatrixX3d spectrumFromTarget;
     if (m_state->dataset) {
-      spectrumFromTarget = m_state->dataset->locate(projection.point).spectrumFromResponse;
+      inside = m_state->rgbFromSpectrum * m_state->dataset->locate(projection.point).spectrumFromResponse;
     } else {
-      local.active = m_state->solve(projection.point, guess, &spectrumFromTarget).active;
-      spectrumFromTarget = m_state->onResponse(spectrumFromTarget);
-    }
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column) {
-        inside(row, column) = m_state->spectrumToRgb.col(row).dot(spectrumFromTarget.col(column));
-      }
+      inside = m_state->onResponse(m_state->linearise(projection.point, guess, local.active));
     }
   }
   local.matrix = (inside * projection.matrix + m_state->extension * (Eigen::Matrix3d::Identity() - projection.matrix)) *

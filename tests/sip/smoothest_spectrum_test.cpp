@@ -244,14 +244,24 @@ TEST(SmoothestSpectrumTest, GuessesDoNotChangeTheAnswer) {
 }
 
 TEST(SmoothestSpectrumTest, LinearPieceIsTheSolution) {
-  const Solver solver(normalisedWeights("FL11", 81));
-  for (const Eigen::Vector3d& given : feasibleTristimuli(solver.weights(), 200)) {
-    const Eigen::Vector3d tristimulus = drawnIn(given);
-    Eigen::MatrixX3d piece;
-    const auto solution = solver.solve(tristimulus, nullptr, nullptr, &piece);
-    ASSERT_TRUE(solution);
-    const double size = solution->reflectance.maxCoeff();
-    ASSERT_LE((piece * tristimulus - solution->reflectance).cwiseAbs().maxCoeff(), 1e-9 * size) << given.transpose();
+  for (const char* const light : {"D65", "HP1", "FL11"}) {
+    const Solver solver(normalisedWeights(light, 81));
+    const Eigen::MatrixX3d functionals = normalisedWeights("LED-RGB1", 81).transpose();
+    ActiveSet latest;
+    for (const Eigen::Vector3d& given : feasibleTristimuli(solver.weights(), 200)) {
+      const Eigen::Vector3d tristimulus = drawnIn(given);
+      const auto solution = solver.solve(tristimulus);
+      ASSERT_TRUE(solution);
+      const Eigen::Vector3d expected = functionals.transpose() * solution->reflectance;
+      for (const ActiveSet* const guess : std::initializer_list<const ActiveSet*>{nullptr, &latest}) {
+        const auto piece = solver.linearise(tristimulus, functionals, guess);
+        ASSERT_TRUE(piece);
+        ASSERT_EQ(piece->active, solution->active) << light << ": " << given.transpose();
+        ASSERT_LE((piece->matrix * tristimulus - expected).cwiseAbs().maxCoeff(), 1e-9 * expected.maxCoeff())
+            << light << ": " << given.transpose();
+      }
+      latest = solution->active;
+    }
   }
 }
 

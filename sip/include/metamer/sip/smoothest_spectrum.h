@@ -62,11 +62,20 @@ class SmoothestSpectrumSolver {
   /// @param tristimulus  c, in the units of the weights
   /// @param prior        P, B values, or null for none
   /// @param start        a guess of the active set; changes the time, not the answer
-  /// @param linearPiece  where given, gets the B x 3 matrix S of the piece: R = S * c for every c with the same active
-  ///                     set (no prior, no upper bound)
   /// @return nothing where no spectrum within the bounds has this tristimulus
   std::optional<Solution> solve(const Eigen::Vector3d& tristimulus, const Eigen::VectorXd* prior = nullptr,
-                                const ActiveSet* start = nullptr, Eigen::MatrixX3d* linearPiece = nullptr) const;
+                                const ActiveSet* start = nullptr) const;
+
+  /// The piece of the answer, linear piece by piece, that holds a tristimulus.
+  struct LinearPiece {
+    ActiveSet active;
+    Eigen::Matrix3d matrix;  ///< F^T dR / dc: F^T R = matrix * c for every c with the same active set
+  };
+  /// The same solve for some functionals of the spectrum, which cost less than the spectrum itself. No prior, no upper
+  /// bound.
+  /// @param functionals  F, B x 3
+  std::optional<LinearPiece> linearise(const Eigen::Vector3d& tristimulus, const Eigen::MatrixX3d& functionals,
+                                       const ActiveSet* start = nullptr) const;
 
   /// The spectrum without bounds: `unconstrained() * c` (B x 3).
   const Eigen::MatrixX3d& unconstrained() const { return m_unconstrained; }
