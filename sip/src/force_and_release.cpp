@@ -77,7 +77,7 @@ bool force(const BoundedProblem& problem, const Eigen::VectorXd& spectrum, BandS
 
 bool forceAndRelease(const BoundedProblem& problem, BandStates& states, Trial& trial, int& rounds,
                      Linearised* linearised) {
-  BandStates revised;
+  BandStates revised{};
   for (int round = 0; round < kMostRounds; ++round) {
     const ReducedSystem system = problem.system(states);
     ++rounds;

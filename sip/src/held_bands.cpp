@@ -5,9 +5,8 @@
 
 namespace metamer::sip {
 
-BandStates statesOf(const ActiveSet& active, int bandCount) {
-  BandStates states;
-  std::fill_n(states.begin(), bandCount, BandState::Free);
+BandStates statesOf(const ActiveSet& active) {
+  BandStates states{};  // all free
   for (const HeldStretch& stretch : active.stretches) {
     std::fill(states.begin() + stretch.first, states.begin() + stretch.end,
               stretch.atOne ? BandState::AtOne : BandState::AtZero);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <memory>
+#include <memory_resource>
 #include <unordered_map>
 
 #include "perceptual_metric.h"
@@ -101,13 +103,14 @@ class Part {
   static constexpr int kRows = 2;
 
   void build() {
+    m_table = std::make_unique<NodeTable>();
     const int side = 1 << Map::kRootBits[static_cast<std::size_t>(m_face)];
     for (int j = m_firstRow; j < m_firstRow + kRows; ++j) {
       for (int i = 0; i < side; ++i) {
         addRoot(i, j);
       }
     }
-    m_nodes = {};
+    m_table.reset();
   }
 
   /// Appends the part to a map, in the order of faces and rows.
@@ -129,7 +132,8 @@ class Part {
  private:
   /// The transform at a point of a face, as a function of the face's coordinates.
   struct Node {
-    SpectralTransform::Linearisation exact;
+    Eigen::Vector3d value;
+    ActiveSet active;
     Eigen::Vector3d alongU;  ///< derivative per unit of the first face coordinate
     Eigen::Vector3d alongV;
     Eigen::Matrix3d metric;  ///< length of metric * error is about CIEDE2000
@@ -145,7 +149,7 @@ class Part {
   /// Position in units of half the finest cell, between two nodes close by (the same twice where there is but one).
   const Node& node(int u, int v, const Node& a, const Node& b) {
     const std::uint64_t key = (static_cast<std::uint64_t>(u) << 20) | static_cast<std::uint64_t>(v);
-    const auto [place, isNew] = m_nodes.try_emplace(key);
+    const auto [place, isNew] = m_table->nodes.try_emplace(key);
     Node& made = place->second;
     if (!isNew) {
       return made;
@@ -157,12 +161,14 @@ class Part {
     cube[(axis + 1) % 3] = 2.0 * u / steps - 1.0;
     cube[(axis + 2) % 3] = 2.0 * v / steps - 1.0;
     const Eigen::Vector3d rgb = m_source.rgbFromCube * cube;
-    const ActiveSet guess = between(a.exact.active, b.exact.active);
-    made.exact = m_source.transform.linearise(rgb, &guess);
-    made.alongU = made.exact.matrix * m_source.rgbFromCube.col((axis + 1) % 3);
-    made.alongV = made.exact.matrix * m_source.rgbFromCube.col((axis + 2) % 3);
-    made.metric = m_source.metric.at(rgb, made.exact.value);
-    made.tolerance = m_source.transform.isFeasible(rgb) ? m_source.tolerance : kOutsideLeniency * m_source.tolerance;
+    const ActiveSet guess = between(a.active, b.active);
+    SpectralTransform::Linearisation exact = m_source.transform.linearise(rgb, &guess);
+    made.value = exact.value;
+    made.active = std::move(exact.active);
+    made.alongU = exact.matrix * m_source.rgbFromCube.col((axis + 1) % 3);
+    made.alongV = exact.matrix * m_source.rgbFromCube.col((axis + 2) % 3);
+    made.metric = m_source.metric.at(rgb, made.value);
+    made.tolerance = exact.isFeasible ? m_source.tolerance : kOutsideLeniency * m_source.tolerance;
     ++m_statistics.solves;
     return made;
   }
@@ -171,18 +177,16 @@ class Part {
   /// derivatives at its ends. Neighbours of one size share their edge exactly.
   static Adini adiniPatch(const std::array<const Node*, 4>& corner, double side) {
     const auto alongU = [&](std::size_t from, std::size_t to) {
-      return hermite(corner[from]->exact.value, corner[to]->exact.value, side * corner[from]->alongU,
-                     side * corner[to]->alongU);
+      return hermite(corner[from]->value, corner[to]->value, side * corner[from]->alongU, side * corner[to]->alongU);
     };
     const auto alongV = [&](std::size_t from, std::size_t to) {
-      return hermite(corner[from]->exact.value, corner[to]->exact.value, side * corner[from]->alongV,
-                     side * corner[to]->alongV);
+      return hermite(corner[from]->value, corner[to]->value, side * corner[from]->alongV, side * corner[to]->alongV);
     };
     const auto bottom = alongU(0, 1);
     const auto top = alongU(2, 3);
     const auto left = alongV(0, 2);
     const auto right = alongV(1, 3);
-    const Eigen::Vector3d twist = corner[3]->exact.value - corner[2]->exact.value - corner[1]->exact.value + bottom[0];
+    const Eigen::Vector3d twist = corner[3]->value - corner[2]->value - corner[1]->value + bottom[0];
     Adini patch{bottom[0],          bottom[1],          bottom[2], bottom[3],          left[1], {},
                 top[2] - bottom[2], top[3] - bottom[3], left[2],   right[2] - left[2], left[3], right[3] - left[3]};
     patch[5] = twist - patch[6] - patch[7] - patch[9] - patch[11];
@@ -191,7 +195,7 @@ class Part {
 
   /// Error of a patch at a checked point over the tolerance there.
   static double excess(const Adini& patch, const Node& at, double u, double v) {
-    return (at.metric * (evaluate(patch, u, v) - at.exact.value)).norm() / at.tolerance;
+    return (at.metric * (evaluate(patch, u, v) - at.value)).norm() / at.tolerance;
   }
 
   /// @param u, v, side  corner and side in units of 1 / steps of the face
@@ -276,7 +280,12 @@ class Part {
   std::vector<std::uint32_t> m_patchIndex;
   std::vector<Map::Patch> m_patches;
   Map::Statistics m_statistics;
-  std::unordered_map<std::uint64_t, Node> m_nodes;
+  /// Nodes by position. None is dropped before all are.
+  struct NodeTable {
+    std::pmr::monotonic_buffer_resource memory;
+    std::pmr::unordered_map<std::uint64_t, Node> nodes{&memory};
+  };
+  std::unique_ptr<NodeTable> m_table;
   Node m_none;  // guesses nothing
   const Node* m_latest = &m_none;
 };

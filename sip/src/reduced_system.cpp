@@ -33,9 +33,11 @@ Eigen::Matrix<double, n, n> pseudoInverse(const Eigen::Matrix<double, n, n>& mat
 ReducedSystem::ReducedSystem(const BandTable& table, const BandStates& states, const Guide* guide, Held held)
     : m_table(table), m_states(states), m_guide(guide), m_held(held) {
   const int count = table.bandCount();
-  const auto isFree = [&states](int b) { return states[static_cast<std::size_t>(b)] == BandState::Free; };
-  const bool anyAtOne = held == Held::AtBounds &&
-                        std::find(states.begin(), states.begin() + count, BandState::AtOne) != states.begin() + count;
+  const auto stateAt = [&states](int b) { return states[static_cast<std::size_t>(b)]; };
+  bool anyAtOne = false;
+  for (int b = 0; held == Held::AtBounds && b < count; b = endOfStretch(states, b, count)) {
+    anyAtOne = anyAtOne || stateAt(b) == BandState::AtOne;
+  }
   if (guide != nullptr || anyAtOne) {
     m_fixed.resize(count);
     for (int b = 0; b < count; ++b) {
@@ -43,16 +45,11 @@ ReducedSystem::ReducedSystem(const BandTable& table, const BandStates& states, c
     }
   }
   Eigen::Matrix3d schur = Eigen::Matrix3d::Zero();
-  for (int b = 0; b < count;) {
-    if (!isFree(b)) {
-      ++b;
-      continue;
+  for (int first = 0, end = 0; first < count; first = end) {
+    end = endOfStretch(states, first, count);
+    if (stateAt(first) == BandState::Free) {
+      addRun(first, end, schur);
     }
-    const int first = b;
-    while (b < count && isFree(b)) {
-      ++b;
-    }
-    addRun(first, b, schur);
   }
   invert(schur);
 }

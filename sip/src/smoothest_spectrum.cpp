@@ -23,13 +23,14 @@ struct Outcome {
 
 /// Solves; nothing where no spectrum within the bounds has the target. With nothing held, `linearised` is left to the
 /// caller.
-/// @param relaxed  the answer without bounds
-std::optional<Outcome> settle(const BoundedProblem& problem, const ActiveSet* start, const Eigen::VectorXd& relaxed,
+/// @param relax  makes the answer without bounds
+template <typename Relax>
+std::optional<Outcome> settle(const BoundedProblem& problem, const ActiveSet* start, const Relax& relax,
                               Linearised* linearised) {
   Outcome outcome;
-  BandStates states;
+  BandStates states{};
   if (start != nullptr && !start->empty()) {
-    states = statesOf(*start, problem.bandCount);
+    states = statesOf(*start);
     if (forceAndRelease(problem, states, outcome.trial, outcome.rounds, linearised)) {
       outcome.active = activeSetOf(states, problem.bandCount);
       // With nothing held the answer is the one below, to the last bit.
@@ -38,8 +39,9 @@ std::optional<Outcome> settle(const BoundedProblem& problem, const ActiveSet* st
       }
     }
   }
+  const Eigen::VectorXd relaxed = relax();
   outcome.trial.spectrum = relaxed;
-  std::fill_n(states.begin(), problem.bandCount, BandState::Free);
+  states.fill(BandState::Free);
   if (!force(problem, relaxed, states)) {
     if (!forceAndRelease(problem, states, outcome.trial, outcome.rounds, linearised)) {
       outcome.fellBack = true;
@@ -63,8 +65,7 @@ SmoothestSpectrumSolver::SmoothestSpectrumSolver(Eigen::Matrix3Xd weights, Upper
     : m_weights(std::move(weights)), m_upperBound(upperBound) {
   assert(bandCount() >= kMinimumBandCount && bandCount() <= kConvergedBandCount);
   m_table = std::make_shared<const BandTable>(m_weights);
-  BandStates free;
-  free.fill(BandState::Free);
+  const BandStates free{};
   m_unconstrained = ReducedSystem(*m_table, free, nullptr, ReducedSystem::Held::AtBounds).response();
   // One step of refinement: what the constraints miss changes the roughness to first order, all else to second.
   m_unconstrained += (m_unconstrained * (Eigen::Matrix3d::Identity() - m_weights * m_unconstrained)).eval();
@@ -74,14 +75,19 @@ std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solve(
                                                                                 const Eigen::VectorXd* prior,
                                                                                 const ActiveSet* start) const {
   Guide guide;
-  Eigen::VectorXd relaxed = m_unconstrained * tristimulus;
   if (prior != nullptr) {
     guide.values = *prior;
-    relaxed += *prior - m_unconstrained * (m_weights * *prior);
   }
+  const auto relax = [&] {
+    Eigen::VectorXd relaxed = m_unconstrained * tristimulus;
+    if (prior != nullptr) {
+      relaxed += *prior - m_unconstrained * (m_weights * *prior);
+    }
+    return relaxed;
+  };
   const BoundedProblem problem{*m_table, m_upperBound == UpperBound::One, tristimulus,
                                prior != nullptr ? &guide : nullptr};
-  std::optional<Outcome> outcome = settle(problem, start, relaxed, nullptr);
+  std::optional<Outcome> outcome = settle(problem, start, relax, nullptr);
   if (!outcome) {
     return std::nullopt;
   }
@@ -99,7 +105,8 @@ std::optional<SmoothestSpectrumSolver::LinearPiece> SmoothestSpectrumSolver::lin
   assert(m_upperBound == UpperBound::None && functionals.rows() == bandCount());
   const BoundedProblem problem{*m_table, false, tristimulus, nullptr};
   Linearised linearised{functionals, Eigen::Matrix3d::Zero()};
-  std::optional<Outcome> outcome = settle(problem, start, m_unconstrained * tristimulus, &linearised);
+  const auto relax = [&]() -> Eigen::VectorXd { return m_unconstrained * tristimulus; };
+  std::optional<Outcome> outcome = settle(problem, start, relax, &linearised);
   if (!outcome) {
     return std::nullopt;
   }
@@ -114,7 +121,7 @@ std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solveB
   Solution solution;
   solution.reflectance = m_unconstrained * tristimulus;
   const BoundedProblem problem{*m_table, false, tristimulus, nullptr};
-  BandStates states;
+  BandStates states{};
   states.fill(BandState::Free);
   Trial trial;
   const double tolerance = toleranceOf(solution.reflectance);

@@ -281,9 +281,10 @@ SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vecto
                                                               const ActiveSet* guess) const {
   Linearisation local;
   if (m_state->identity) {
-    return {rgb, Eigen::Matrix3d::Identity(), {}};
+    return {rgb, Eigen::Matrix3d::Identity(), {}, isFeasible(rgb)};
   }
   if (m_state->prior) {
+    local.isFeasible = isFeasible(rgb);
     // The blend's own gradient has no closed form worth its code: central differences.
     local.value = apply(rgb);
     const double step = kDifferenceStep * rgb.cwiseAbs().maxCoeff();
@@ -296,6 +297,7 @@ SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vecto
   const double scale = rgb.isZero(0.0) ? 1.0 : exposureScale(rgb);
   const Eigen::Vector3d response = m_state->responseFromRgb * (scale * rgb);
   const auto projection = m_state->domain().project(response);
+  local.isFeasible = projection.piece == 0;
   Eigen::Matrix3d inside = Eigen::Matrix3d::Zero();
   if (!projection.point.isZero(0.0)) {
     if (m_state->dataset) {

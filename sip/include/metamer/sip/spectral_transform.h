@@ -65,6 +65,7 @@ class SpectralTransform {
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();  ///< derivative; value = matrix * rgb (homogeneity)
     ActiveSet active;                                  ///< bands held at zero
+    bool isFeasible = false;                           ///< as isFeasible()
   };
   /// @param guess  bands held for a colour nearby, where known: saves time, does not change the answer
   Linearisation linearise(const Eigen::Vector3d& rgb, const ActiveSet* guess = nullptr) const;
