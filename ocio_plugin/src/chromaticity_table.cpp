@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "chromaticity_probe.h"
-#include "parallel.h"
+#include "chromaticity_samples.h"
 
 namespace metamer::ocio {
 namespace {
@@ -15,12 +16,6 @@ namespace {
 constexpr double kOutsideWeight = 1e-3;
 /// Probes along a side for the first placing of the ticks.
 constexpr int kProbesPerSide = 129;
-/// Samples along a side of a cell.
-constexpr int kSamplesPerSide = 4;
-/// Samples of the ring close to the border for each tick, and their share against all others together: about that among
-/// the error protocol's probes, and half as much again because its largest errors lie there.
-constexpr int kRingPerTick = 16;
-constexpr double kRingShare = 0.14;
 /// Times that the ticks are moved toward what errs; rounds of weighted least squares for each, and at the end.
 constexpr int kMoves = 5;
 constexpr int kRoundsOfAMove = 2;
@@ -37,87 +32,13 @@ constexpr double kMostBeyond = 3.0;
 /// Power of an error, up to a part of the 99th percentile, that draws ticks to its strip.
 constexpr double kStripPower = 5.0;
 constexpr double kMostPart = 1.5;
+/// A plane on which the transform bends so much more than on the best is not tried.
+constexpr double kMostBending = 1.5;
+/// A small table, quickly made, is finished on every plane whose first draft is about as good as the best.
+constexpr double kCloseDraft = 1.4;
+constexpr int kMostSizeTriedTwice = 33;
 /// A largest error of so many 99th percentiles is as bad as they are.
 constexpr double kMaximumToQuantile = 6.0;
-
-void sampleNodes(PlaneLattice& lattice, const ChromaticityPlane& plane, const ChromaticityProbe& probe) {
-  lattice.nodes.resize(lattice.ticks[0].size() * lattice.ticks[1].size());
-  parallelFor(lattice.size(), [&](int i) {
-    for (int j = 0; j < lattice.size(); ++j) {
-      const Eigen::Vector2d point = lattice.place(i, j);
-      Eigen::Vector3d& node = lattice.nodes[lattice.index(i, j)];
-      node = {point.x(), point.y(), 0.0};
-      // Where the transform has no amount: its value at a point nearer to white.
-      constexpr int kParts = 64;
-      for (int part = kParts; part > 0; --part) {
-        const auto answer = probe.ask(plane.white + static_cast<double>(part) / kParts * (point - plane.white));
-        if (answer.isUsable) {
-          node = answer.value;
-          break;
-        }
-      }
-    }
-  });
-}
-
-struct TableSample {
-  LatticeSample fit;
-  ChromaticityProbe::Answer exact;
-  double area = 0;  ///< in CIE xy: its share among the error protocol's probes
-};
-
-/// Adds the ring to samples that are spread over the whole plane.
-void addRing(std::vector<TableSample>& samples, int size, const ChromaticityProbe& probe) {
-  double total = 0.0;
-  for (const auto& sample : samples) {
-    total += sample.exact.isFeasible ? sample.area : 0.0;
-  }
-  const std::vector<Eigen::Vector2d> ring = probe.ring(kRingPerTick * size);
-  for (const Eigen::Vector2d& point : ring) {
-    const auto answer = probe.askFeasible(point);
-    if (answer.isUsable) {
-      const Eigen::Matrix3d metric = probe.metric(answer);
-      if (metric.allFinite()) {
-        samples.push_back(
-            {{point, answer.value, metric}, answer, kRingShare * total / static_cast<double>(ring.size())});
-      }
-    }
-  }
-}
-
-std::vector<TableSample> takeSamples(const PlaneLattice& lattice, const ChromaticityProbe& probe) {
-  const int side = kSamplesPerSide * (lattice.size() - 1);
-  const auto width = [&](int axis, int k) {
-    const auto cell = static_cast<std::size_t>(k / kSamplesPerSide);
-    return lattice.ticks[axis][cell + 1] - lattice.ticks[axis][cell];
-  };
-  const auto centre = [&](int axis, int k) {
-    const double within = (k % kSamplesPerSide + 0.5) / kSamplesPerSide;
-    return lattice.ticks[axis][static_cast<std::size_t>(k / kSamplesPerSide)] + within * width(axis, k);
-  };
-  std::vector<std::vector<TableSample>> rows(static_cast<std::size_t>(side));
-  parallelFor(side, [&](int i) {
-    for (int j = 0; j < side; ++j) {
-      const Eigen::Vector2d point(centre(0, i), centre(1, j));
-      // Beyond what reflectances can make one sample a cell is enough.
-      const bool isFirst = i % kSamplesPerSide == 1 && j % kSamplesPerSide == 1;
-      const auto answer = isFirst ? probe.ask(point) : probe.askFeasible(point);
-      if (answer.isUsable) {
-        const Eigen::Matrix3d metric = probe.metric(answer);
-        if (metric.allFinite()) {
-          rows[static_cast<std::size_t>(i)].push_back(
-              {{point, answer.value, metric}, answer, probe.xyArea(point, width(0, i) * width(1, j))});
-        }
-      }
-    }
-  });
-  std::vector<TableSample> samples;
-  for (const auto& row : rows) {
-    samples.insert(samples.end(), row.begin(), row.end());
-  }
-  addRing(samples, lattice.size(), probe);
-  return samples;
-}
 
 /// The node along either coordinate that lies at white.
 std::size_t whiteNode(const PlaneLattice& lattice, const Eigen::Vector2d& white) {
@@ -222,46 +143,110 @@ PlaneTicks stripErrors(const PlaneLattice& lattice, const std::vector<TableSampl
   return strips;
 }
 
+/// A table on its way: its nodes are solved for the ticks that it has so far.
+struct Draft {
+  ChromaticityTable table;
+  std::vector<TableSample> samples;
+  std::optional<Errors> errors;  ///< at the samples; none where there are none
+
+  double quantile() const { return errors ? errors->quantile : std::numeric_limits<double>::infinity(); }
+};
+
+/// Nodes with the transform's values, and samples to judge them by.
+void sample(Draft& draft, const ChromaticityProbe& probe) {
+  sampleNodes(draft.table.lattice, draft.table.plane, probe);
+  draft.samples = takeSamples(draft.table.lattice, probe);
+}
+
+void solveNodes(Draft& draft, const ChromaticityProbe& probe, int rounds) {
+  PlaneLattice& lattice = draft.table.lattice;
+  draft.errors = fitNodes(lattice, draft.samples, whiteNode(lattice, draft.table.plane.white), probe, rounds);
+}
+
+/// The table of a plane before its ticks are moved.
+Draft firstDraft(const ChromaticityPlane& plane, const PlaneTicks& placed, const sip::SpectralTransform& transform,
+                 bool fitted) {
+  Draft draft{{plane, {placed, {}}}, {}, {}};
+  PlaneLattice& lattice = draft.table.lattice;
+  // Again from where the ticks now lie, which resolves the narrow strips.
+  const PlaneTicks probes = {subdivided(placed[0], 2), subdivided(placed[1], 2)};
+  lattice.ticks = placeTicks(probes, plane, transform, lattice.size()).ticks;
+  const ChromaticityProbe probe(plane, transform);
+  sample(draft, probe);
+  if (!draft.samples.empty() && fitted) {
+    solveNodes(draft, probe, kRoundsOfAMove);
+  } else if (!draft.samples.empty()) {
+    draft.errors.emplace(lattice, draft.samples, probe);
+  }
+  return draft;
+}
+
+/// Moves the ticks toward what errs, again and again, and solves the nodes for the best.
+void finish(Draft& draft, const sip::SpectralTransform& transform) {
+  const ChromaticityPlane& plane = draft.table.plane;
+  const ChromaticityProbe probe(plane, transform);
+  Draft moved = draft;
+  PlaneTicks best = draft.table.lattice.ticks;
+  double least = draft.errors->badness();
+  for (int move = 0; move < kMoves; ++move) {
+    PlaneLattice& lattice = moved.table.lattice;
+    lattice.ticks = movedTicks(lattice.ticks, stripErrors(lattice, moved.samples, *moved.errors), plane.white);
+    sample(moved, probe);
+    solveNodes(moved, probe, kRoundsOfAMove);
+    if (moved.errors->badness() < least) {
+      least = moved.errors->badness();
+      best = lattice.ticks;
+    }
+  }
+  PlaneLattice& lattice = draft.table.lattice;
+  lattice.ticks = best;
+  sample(draft, probe);
+  solveNodes(draft, probe, kRounds);
+  // White lies beside its node by what ticks are rounded by, and a coarse lattice's slope is not the transform's.
+  const auto answer = probe.ask(plane.white);
+  if (answer.isUsable) {
+    lattice.nodes[whiteNode(lattice, plane.white)] += answer.value - lattice.at(plane.white);
+  }
+}
+
+/// First drafts on the planes worth trying, the best one first.
+std::vector<Draft> firstDrafts(const sip::TransformSpec& spec, const sip::SpectralTransform& transform, int size,
+                               bool fitted) {
+  const auto planes = chromaticityPlanes(spec, transform);
+  std::vector<PlacedTicks> placed;
+  placed.reserve(planes.size());
+  double leastBending = std::numeric_limits<double>::infinity();
+  for (const auto& plane : planes) {
+    placed.push_back(placeTicks({evenTicks(kProbesPerSide), evenTicks(kProbesPerSide)}, plane, transform, size));
+    leastBending = std::min(leastBending, placed.back().bending);
+  }
+  std::vector<Draft> drafts;
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    if (placed[k].bending <= kMostBending * leastBending) {
+      drafts.push_back(firstDraft(planes[k], placed[k].ticks, transform, fitted));
+    }
+  }
+  std::stable_sort(drafts.begin(), drafts.end(),
+                   [](const Draft& p, const Draft& q) { return p.quantile() < q.quantile(); });
+  return drafts;
+}
+
 }  // namespace
 
 ChromaticityTable buildChromaticityTable(const sip::TransformSpec& spec, const sip::SpectralTransform& transform,
                                          int size, bool fitted) {
-  const auto planes = chromaticityPlanes(spec, transform);
-  std::vector<PlacedTicks> placed;
-  placed.reserve(planes.size());
-  for (const auto& plane : planes) {
-    placed.push_back(placeTicks({evenTicks(kProbesPerSide), evenTicks(kProbesPerSide)}, plane, transform, size));
+  std::vector<Draft> drafts = firstDrafts(spec, transform, size, fitted);
+  if (!fitted || !drafts.front().errors) {
+    return std::move(drafts.front().table);
   }
-  const auto best = std::min_element(placed.begin(), placed.end(),
-                                     [](const auto& p, const auto& q) { return p.bending < q.bending; });
-  ChromaticityTable table{planes[static_cast<std::size_t>(best - placed.begin())], {best->ticks, {}}};
-  // Again from where the ticks now lie, which resolves the narrow strips.
-  const PlaneTicks probes = {subdivided(table.lattice.ticks[0], 2), subdivided(table.lattice.ticks[1], 2)};
-  table.lattice.ticks = placeTicks(probes, table.plane, transform, size).ticks;
-  const ChromaticityProbe probe(table.plane, transform);
-  sampleNodes(table.lattice, table.plane, probe);
-  if (!fitted) {
-    return table;
+  const double close = kCloseDraft * drafts.front().quantile();
+  finish(drafts.front(), transform);
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < drafts.size() && size <= kMostSizeTriedTwice && drafts[k].quantile() <= close; ++k) {
+    finish(drafts[k], transform);
+    best = drafts[k].quantile() < drafts[best].quantile() ? k : best;
   }
-  PlaneLattice lattice = table.lattice;
-  double least = std::numeric_limits<double>::infinity();
-  for (int move = 0; move <= kMoves; ++move) {
-    const std::vector<TableSample> samples = takeSamples(lattice, probe);
-    if (samples.empty()) {
-      return table;
-    }
-    const std::vector<Eigen::Vector3d> own = lattice.nodes;
-    const Errors errors = fitNodes(lattice, samples, whiteNode(lattice, table.plane.white), probe, kRoundsOfAMove);
-    if (errors.badness() < least) {
-      least = errors.badness();
-      table.lattice = {lattice.ticks, own};
-    }
-    lattice.ticks = movedTicks(lattice.ticks, stripErrors(lattice, samples, errors), table.plane.white);
-    sampleNodes(lattice, table.plane, probe);
-  }
-  fitNodes(table.lattice, takeSamples(table.lattice, probe), whiteNode(table.lattice, table.plane.white), probe,
-           kRounds);
-  return table;
+  return std::move(drafts[best].table);
 }
 
 }  // namespace metamer::ocio

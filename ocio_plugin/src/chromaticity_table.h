@@ -14,8 +14,8 @@ struct ChromaticityTable {
   PlaneLattice lattice;
 };
 
-/// Chooses the plane, crowds the nodes where the transform bends, solves their values, and moves the nodes on toward
-/// what still errs.
+/// Chooses the plane by how far tables on it err, crowds the nodes where the transform bends, solves their values, and
+/// moves the nodes on toward what still errs.
 /// @param spec    what `transform` was made from
 /// @param size    nodes along a side
 /// @param fitted  false: the transform's own values at the nodes
