@@ -181,7 +181,9 @@ TEST_P(BsdfTest, SamplesFollowTheirDensity) {
     std::vector<double> counts(kColumns * kRows);
     double found = 0;
     for (int i = 0; i < kDraws; ++i) {
-      const auto sample = bsdf().sample(out, random.next(), random.next(), [&] { return random.next(); });
+      const float u = random.next();
+      const float v = random.next();
+      const auto sample = bsdf().sample(out, u, v, [&] { return random.next(); });
       if (sample.pdf[0] > 0.0F) {
         counts[cellOf(sample.direction)] += 1;
         found += 1;
@@ -203,7 +205,9 @@ TEST_P(BsdfTest, EnergyAndReciprocity) {
   const auto wavelengths = someWavelengths();
   for (int i = 0; i < 200; ++i) {
     const auto direction = [&] {
-      const Vec3 local = squareToCosineHemisphere(random.next(), random.next());
+      const float u = random.next();
+      const float v = random.next();
+      const Vec3 local = squareToCosineHemisphere(u, v);
       return Vec3(local.x(), local.y(), std::max(local.z(), 0.05F)).normalized();
     };
     const Vec3 a = direction();
@@ -219,7 +223,9 @@ TEST_P(BsdfTest, EnergyAndReciprocity) {
     Eigen::Array4d sum = Eigen::Array4d::Zero();
     constexpr int kDraws = 40000;
     for (int i = 0; i < kDraws; ++i) {
-      const auto sample = bsdf().sample(out, random.next(), random.next(), [&] { return random.next(); });
+      const float u = random.next();
+      const float v = random.next();
+      const auto sample = bsdf().sample(out, u, v, [&] { return random.next(); });
       // Radiance changes with the square of the index across a surface; power does not.
       Lanes<4> weight = sample.weight;
       if (sample.direction.z() < 0.0F && weight[0] > 0.0F) {
@@ -258,7 +264,10 @@ TEST(LightDensityTest, DirectionsFollowTheDensityOfTheirHits) {
   constexpr int kDraws = 300000;
   std::vector<double> counts(kColumns * kRows);
   for (int i = 0; i < kDraws; ++i) {
-    const LightSample sample = lights.sample(lights.choose(random.bits(), random.next(), random.next()), from);
+    const std::uint32_t bits = random.bits();
+    const float u = random.next();
+    const float v = random.next();
+    const LightSample sample = lights.sample(lights.choose(bits, u, v), from);
     ASSERT_GT(sample.pdf, 0.0F);
     counts[cellOf(sample.direction)] += 1;
   }
