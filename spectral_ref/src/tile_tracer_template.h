@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "path_integrator.h"
+#include "path_random.h"
 #include "reservoir.h"
 #include "tile_tracer.h"
 #include "wavelength_sampling.h"

@@ -29,8 +29,9 @@ AreaMean luminanceOver(const Film& film, int x, int y, int width, int height) {
   AreaMean result;
   double variance = 0;
   for (int row = y; row < y + height; ++row) {
+    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(film.format().width);
     for (int column = x; column < x + width; ++column) {
-      const Estimate estimate = film.luminance(static_cast<std::size_t>(row * film.format().width + column));
+      const Estimate estimate = film.luminance(first + static_cast<std::size_t>(column));
       result.mean += estimate.mean;
       variance += estimate.variance;
     }
