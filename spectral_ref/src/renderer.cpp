@@ -189,7 +189,7 @@ void Renderer::writeState(const ByteSink& sink) const {
   m_state->tracer->save(writer, m_state->cursor);
 }
 
-void Renderer::restore(const std::vector<unsigned char>& state, const std::string& where) {
+void Renderer::restore(const ByteSource& state, const std::string& where) {
   StateReader reader(state, where);
   if (reader.get<std::uint64_t>() != kStateVersion) {
     throw reader.damaged();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral_ref/scene_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -23,6 +24,15 @@ std::vector<unsigned char> stateOf(const Renderer& renderer) {
     state.insert(state.end(), first, first + size);
   });
   return state;
+}
+
+void restoreFrom(Renderer& renderer, const std::vector<unsigned char>& state) {
+  std::size_t place = 0;
+  const auto take = [&](void* bytes, std::size_t size) {
+    std::copy_n(state.data() + place, size, static_cast<unsigned char*>(bytes));
+    place += size;
+  };
+  renderer.restore({take, state.size()}, "checkpoint");
 }
 
 AreaMean luminanceOver(const Film& film, int x, int y, int width, int height) {
