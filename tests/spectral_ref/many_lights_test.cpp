@@ -22,11 +22,14 @@ double peakMebibytes() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-/// Drives from 0 to 1, a few of them near 1: every lamp is unlike its neighbours.
+/// Drives from 0 to 1, few of them near 1: every lamp is unlike its neighbours, and each side of the wall unlike the
+/// other.
 std::vector<float> drives() {
   std::vector<float> values(std::size_t{kSide} * kSide);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = std::pow(unitFloat(hash32(static_cast<std::uint32_t>(i))), 8.0F);
+    const float right = static_cast<float>(i % kSide) / kSide;
+    const float down = static_cast<float>(i / kSide) / kSide;
+    values[i] = std::pow(unitFloat(hash32(static_cast<std::uint32_t>(i))), 8.0F) * right * down;
   }
   return values;
 }
