@@ -123,7 +123,8 @@ class RenderJob {
     m_renderer = std::make_unique<Renderer>(m_scene, options, m_range[0], arguments.threads);
     std::error_code none;
     if (arguments.resume && std::filesystem::exists(m_checkpoint, none)) {
-      m_renderer->restore(readCheckpoint(m_checkpoint), m_checkpoint.string());
+      readCheckpoint(m_checkpoint,
+                     [this](const ByteSource& state) { m_renderer->restore(state, m_checkpoint.string()); });
       if (m_renderer->nextSample() > m_range[1]) {
         throw InputError(m_checkpoint.string(), "samples", std::to_string(m_renderer->nextSample()),
                          "are more than asked for (" + std::to_string(m_range[1]) + "); ask for more or delete it");

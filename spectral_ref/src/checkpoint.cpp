@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <string_view>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "fingerprint.h"
 #include "metamer/spectral/input_error.h"
@@ -42,22 +43,26 @@ class CheckSum {
   Fingerprint m_rest;
 };
 
+/// Bytes that are written, read and summed at a time.
+constexpr std::size_t kPiece = std::size_t{1} << 20U;
+static_assert(kPiece % CheckSum::kWord == 0);
+
 /// Gathers small pieces, and writes and sums large ones.
 class CheckpointFile {
  public:
   explicit CheckpointFile(const std::filesystem::path& file)
       : m_pending(file), m_stream(m_pending.path(), std::ios::binary) {
-    m_buffer.reserve(kBuffer);
+    m_buffer.reserve(kPiece);
   }
 
   void add(const void* bytes, std::size_t size) {
     const auto* from = static_cast<const unsigned char*>(bytes);
     while (size > 0) {
-      const std::size_t count = std::min(size, kBuffer - m_buffer.size());
+      const std::size_t count = std::min(size, kPiece - m_buffer.size());
       m_buffer.insert(m_buffer.end(), from, from + count);
       from += count;
       size -= count;
-      if (m_buffer.size() == kBuffer) {
+      if (m_buffer.size() == kPiece) {
         flush();
       }
     }
@@ -72,9 +77,6 @@ class CheckpointFile {
   }
 
  private:
-  static constexpr std::size_t kBuffer = std::size_t{1} << 20U;
-  static_assert(kBuffer % CheckSum::kWord == 0);
-
   void flush() {
     m_sum.add(m_buffer.data(), m_buffer.size());
     m_stream.write(reinterpret_cast<const char*>(m_buffer.data()), static_cast<std::streamsize>(m_buffer.size()));
@@ -103,27 +105,44 @@ void writeCheckpoint(const std::function<void(const ByteSink&)>& state, const st
   checkpoint.finish();
 }
 
-std::vector<unsigned char> readCheckpoint(const std::filesystem::path& file) {
+void readCheckpoint(const std::filesystem::path& file, const std::function<void(const ByteSource&)>& state) {
+  const auto error = [&file](const char* remedy) {
+    return spectral::InputError(file.string(), "checkpoint", "", remedy);
+  };
+  constexpr const char* kUnreadable = "cannot be read; check its permissions";
+  constexpr const char* kDamaged = "is damaged or of another release; delete it and start again";
   std::error_code none;
-  const std::uintmax_t size = std::filesystem::file_size(file, none);
+  const std::uintmax_t whole = std::filesystem::file_size(file, none);
   std::ifstream stream(file, std::ios::binary);
-  std::vector<unsigned char> bytes(none || !stream ? 0 : static_cast<std::size_t>(size));
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (none || !stream) {
-    throw spectral::InputError(file.string(), "checkpoint", "", "cannot be read; check its permissions");
+    throw error(kUnreadable);
   }
-  std::uint64_t stored = 0;
-  if (bytes.size() >= sizeof stored) {
-    std::memcpy(&stored, bytes.data() + bytes.size() - sizeof stored, sizeof stored);
-    bytes.resize(bytes.size() - sizeof stored);
-    CheckSum sum;
-    sum.add(bytes.data(), bytes.size());
-    if (sum.value() == stored) {
-      return bytes;
+  const auto read = [&](void* bytes, std::size_t size) {
+    stream.read(static_cast<char*>(bytes), static_cast<std::streamsize>(size));
+    if (!stream) {
+      throw error(kUnreadable);
     }
+  };
+  std::uint64_t stored = 0;
+  if (whole < sizeof stored) {
+    throw error(kDamaged);
   }
-  throw spectral::InputError(file.string(), "checkpoint", "",
-                             "is damaged or of another release; delete it and start again");
+  const std::uint64_t size = whole - sizeof stored;
+  // Twice through the file instead of once into memory: what is damaged must be seen before any of it is taken over.
+  CheckSum sum;
+  std::vector<unsigned char> piece(static_cast<std::size_t>(std::min<std::uint64_t>(size, kPiece)));
+  for (std::uint64_t left = size; left > 0;) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(left, kPiece));
+    read(piece.data(), count);
+    sum.add(piece.data(), count);
+    left -= count;
+  }
+  read(&stored, sizeof stored);
+  if (sum.value() != stored) {
+    throw error(kDamaged);
+  }
+  stream.seekg(0);
+  state({read, size});
 }
 
 }  // namespace metamer::spectral_ref

@@ -18,6 +18,12 @@ struct Member {
 
 }  // namespace
 
+bool LightCuts::isWide(const LightTree::Node& node, const Vec3& place) {
+  // The sine of the half angle that it is seen under.
+  return node.isInfinite ? node.cosSpread < 0.0F || node.sinSpread > kNear
+                         : node.radius * node.radius > kNear * kNear * (node.center - place).squaredNorm();
+}
+
 LightCuts::LightCuts(const LightTree& tree, std::size_t blocks)
     : m_tree(tree), m_headers(blocks), m_clusters(blocks * kClusters) {}
 
@@ -30,8 +36,7 @@ void LightCuts::build(std::size_t block, const std::vector<Receiver>& receivers)
     for (std::size_t r = 0; r < receivers.size(); ++r) {
       member.importance[static_cast<Eigen::Index>(r)] =
           LightTree::importance(node, receivers[r].place, receivers[r].normal);
-      if (node.right == 0 && !node.isInfinite &&
-          node.radius * node.radius > kNear * kNear * (node.center - receivers[r].place).squaredNorm()) {
+      if (node.right == 0 && isWide(node, receivers[r].place)) {
         header.isNear = true;
       }
     }

@@ -46,7 +46,7 @@ class LightCuts {
  private:
   /// Share of the candidates that is drawn by intensity alone, so that no light is left out.
   static constexpr double kDefensive = 0.1;
-  /// Of a light's half size to its distance.
+  /// Of a light's half size to its distance; of the sine of half its angle where it is infinitely far.
   static constexpr float kNear = 0.5F;
 
   struct Cluster {
@@ -65,6 +65,8 @@ class LightCuts {
     std::uint32_t below;
     double chances;
   };
+  /// Whether a light takes up much of the view from a place.
+  static bool isWide(const LightTree::Node& node, const Vec3& place);
   Span spanOf(std::size_t block, std::size_t index) const;
   Choice choiceIn(const Span& span, std::uint32_t position) const;
 

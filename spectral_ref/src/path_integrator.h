@@ -1,73 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
+#include <algorithm>
+#include <cstdint>
 
-#include "camera.h"
-#include "embree_scene.h"
-#include "film_sensor.h"
+#include "gel_passage.h"
 #include "lanes.h"
-#include "light_table.h"
-#include "material_table.h"
-#include "metamer/spectral_ref/scene.h"
+#include "path_random.h"
+#include "prepared_scene.h"
 #include "reservoir.h"
-#include "sampler.h"
 
 namespace metamer::spectral_ref {
-
-/// A scene made ready to trace: flat tables, built once, read by all threads.
-struct PreparedScene {
-  explicit PreparedScene(const Scene& description)
-      : scene(description),
-        shapes(description),
-        spectra(description.spectra),
-        materials(description),
-        lights(description, shapes),
-        camera(description.camera, description.film) {}
-
-  const Scene& scene;
-  EmbreeScene shapes;
-  SpectrumTables spectra;
-  MaterialTable materials;
-  LightTable lights;
-  Camera camera;
-};
-
-/// Random numbers of a path by use. Set 0 serves the camera and the first vertex; vertex n > 0 has set n.
-class PathRandom {
- public:
-  explicit PathRandom(const Sampler& sampler) : m_sampler(sampler), m_set(sampler.set(0)) {}
-
-  Eigen::Vector2f pixel() const { return {m_set[0], m_set[1]}; }
-  float wavelength() const { return m_set[2]; }
-
-  /// Goes on to a vertex: before any of the below.
-  void vertex(std::uint32_t number) {
-    m_vertex = number;
-    m_offset = 3;
-    if (number > 0) {
-      m_set = m_sampler.set(number);
-      m_offset = 0;
-    }
-  }
-  LightPoint light(const LightTable& lights) const {
-    return lights.choose(m_set.bits[m_offset + 2], m_set[m_offset], m_set[m_offset + 1]);
-  }
-  Eigen::Vector2f direction() const { return {m_set[m_offset + 3], m_set[m_offset + 4]}; }
-  /// Chooses among the candidates of resampling, in place of light().
-  float candidate() const { return m_set[m_offset + 2]; }
-  Sampler::Candidates candidates(unsigned log2Count) const { return m_sampler.candidates(kCandidateSet, log2Count); }
-  float lobe() const { return m_vertex > 0 ? m_set[5] : m_sampler.random(0); }
-  float roulette() const { return m_vertex > 0 ? m_set[6] : m_sampler.random(1); }
-
- private:
-  static constexpr std::uint32_t kCandidateSet = 0x63616e64U;  ///< no vertex has this number
-
-  Sampler m_sampler;
-  Sampler::Set m_set;
-  std::size_t m_offset = 3;
-  std::uint32_t m_vertex = 0;
-};
 
 /// Direct light of the first surface by next-event estimation, as of all others.
 struct NoResampling {
@@ -92,7 +35,7 @@ class PathIntegrator {
     Path path;
     for (int edge = 1;; ++edge) {
       Hit hit;
-      const Passage passage = trace(ray, hit, path.throughput, wavelengths);
+      const Passage passage = throughGels(m_prepared, ray, hit, path.throughput, wavelengths);
       if (passage == Passage::Absorbed) {
         break;
       }
@@ -149,8 +92,6 @@ class PathIntegrator {
   }
 
  private:
-  enum class Passage { Hit, Escaped, Absorbed };
-
   /// What a path has become on its way from the camera.
   struct Path {
     Lanes<C> radiance = Lanes<C>::Zero();
@@ -172,45 +113,6 @@ class PathIntegrator {
     } else {
       return 1.0F;
     }
-  }
-
-  /// Follows a ray to the next surface that scatters, through gels, which count as no edge.
-  Passage trace(Ray& ray, Hit& hit, Lanes<C>& throughput, const WavelengthSet<C>& wavelengths) const {
-    while (m_prepared.shapes.intersect(ray, hit)) {
-      if (!m_prepared.materials.isGel(hit.material)) {
-        return Passage::Hit;
-      }
-      throughput *= m_prepared.spectra.at(m_prepared.materials.gelTransmittance(hit.material), wavelengths);
-      if (!(throughput.maxCoeff() > 0.0F)) {
-        return Passage::Absorbed;
-      }
-      ray.origin = offPoint(hit.position, hit.normal, ray.direction);
-    }
-    return Passage::Escaped;
-  }
-
-  /// What gels leave of the light between two points; false where something else lies between.
-  bool transmits(Ray ray, std::uint32_t emitter, Lanes<C>& light, const WavelengthSet<C>& wavelengths) const {
-    if (!m_prepared.materials.hasGels()) {
-      return !m_prepared.shapes.occluded(ray);
-    }
-    Hit hit;
-    while (m_prepared.shapes.intersect(ray, hit)) {
-      if (hit.emitter == emitter) {
-        return true;  // the light itself, found a little early
-      }
-      if (!m_prepared.materials.isGel(hit.material)) {
-        return false;
-      }
-      light *= m_prepared.spectra.at(m_prepared.materials.gelTransmittance(hit.material), wavelengths);
-      if (!(light.maxCoeff() > 0.0F)) {
-        return false;
-      }
-      const Vec3 next = offPoint(hit.position, hit.normal, ray.direction);
-      ray.most -= (next - ray.origin).dot(ray.direction);
-      ray.origin = next;
-    }
-    return true;
   }
 
   /// Weight of light found by following the BSDF, where next-event estimation finds it with density p_light:
@@ -269,7 +171,8 @@ class PathIntegrator {
       return;
     }
     Lanes<C> arriving = lights.radiance(light.emitter, light.element, m_prepared.spectra, wavelengths) * light.scale;
-    if (!(arriving.maxCoeff() > 0.0F) || !transmits(shadowRay(hit, light), light.emitter, arriving, wavelengths)) {
+    if (!(arriving.maxCoeff() > 0.0F) ||
+        !gelsTransmit(m_prepared, shadowRay(hit, light), light.emitter, arriving, wavelengths)) {
       return;
     }
     // A point light is found by this technique alone.
@@ -295,28 +198,12 @@ class PathIntegrator {
         const float sum = arriving.sum();
         weight *= sum > 0.0F ? static_cast<float>(C) * arriving[0] / sum : 0.0F;
       }
-      if (weight > 0.0F && transmits(shadowRay(hit, seen.light), seen.light.emitter, arriving, wavelengths)) {
+      if (weight > 0.0F &&
+          gelsTransmit(m_prepared, shadowRay(hit, seen.light), seen.light.emitter, arriving, wavelengths)) {
         path.radiance += arriving * weight;
       }
     }
     return m_settings.maxDepth > 2 || resampling.sampler.needsBsdf(reservoir.domain);
-  }
-
-  static Ray shadowRay(const Hit& hit, const LightSample& light) {
-    // Short of the light by more than float error.
-    constexpr float kShort = 1.0F - 1e-4F;
-    Ray ray;
-    ray.origin = offPoint(hit.position, hit.normal, light.direction);
-    ray.direction = light.direction;
-    ray.most = light.distance;
-    if (std::isfinite(light.distance)) {
-      // From where it starts: a light close by must not hide itself.
-      const Vec3 towards = hit.position + light.direction * light.distance - ray.origin;
-      ray.most = towards.norm();
-      ray.direction = towards / ray.most;
-      ray.most *= kShort;
-    }
-    return ray;
   }
 
   /// Draws the next direction; false where the path ends.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMostSamplesAPass = 4096;
 /// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
-constexpr std::uint64_t kStateVersion = 0x6d65746100000002U;
+constexpr std::uint64_t kStateVersion = 0x6d65746100000003U;
 
 std::vector<Tile> tilesOf(int width, int height) {
   std::vector<Tile> tiles;
@@ -189,7 +189,7 @@ void Renderer::writeState(const ByteSink& sink) const {
   m_state->tracer->save(writer, m_state->cursor);
 }
 
-void Renderer::restore(const std::vector<unsigned char>& state, const std::string& where) {
+void Renderer::restore(const ByteSource& state, const std::string& where) {
   StateReader reader(state, where);
   if (reader.get<std::uint64_t>() != kStateVersion) {
     throw reader.damaged();

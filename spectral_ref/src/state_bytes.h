@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
@@ -36,7 +37,7 @@ class StateWriter {
 /// Takes them out again.
 class StateReader {
  public:
-  StateReader(const std::vector<unsigned char>& bytes, std::string where) : m_bytes(bytes), m_where(std::move(where)) {}
+  StateReader(const ByteSource& source, std::string where) : m_source(source), m_where(std::move(where)) {}
 
   template <typename T>
   T get() {
@@ -55,7 +56,7 @@ class StateReader {
     take(values.data(), values.size() * sizeof(T));
   }
   void finish() const {
-    if (m_place != m_bytes.size()) {
+    if (m_place != m_source.size) {
       throw damaged();
     }
   }
@@ -66,17 +67,15 @@ class StateReader {
 
  private:
   void take(void* data, std::size_t size) {
-    if (size > m_bytes.size() - m_place) {
+    if (size > m_source.size - m_place) {
       throw damaged();
     }
-    if (size > 0) {
-      std::memcpy(data, m_bytes.data() + m_place, size);
-    }
+    m_source.take(data, size);
     m_place += size;
   }
-  const std::vector<unsigned char>& m_bytes;
+  const ByteSource& m_source;
   std::string m_where;
-  std::size_t m_place = 0;
+  std::uint64_t m_place = 0;
 };
 
 }  // namespace metamer::spectral_ref

@@ -6,7 +6,8 @@
 
 #include "film_sensor.h"
 #include "metamer/spectral_ref/renderer.h"
-#include "path_integrator.h"
+#include "prepared_scene.h"
+#include "sampler.h"
 #include "state_bytes.h"
 #include "wavelength_guide.h"
 

@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "path_integrator.h"
+#include "path_random.h"
 #include "reservoir.h"
 #include "tile_tracer.h"
 #include "wavelength_sampling.h"
@@ -248,8 +250,11 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
     const FilmFormat& format = this->m_context.film.format();
     HashRandom choices(this->m_context.options.seed, pixel, at.sample);
     for (int i = 0; i < kNeighbours; ++i) {
-      const Eigen::Vector2f offset = squareToDisc(choices.next(), choices.next()) * kRadius;
+      // One by one: the order in which a call's arguments are worked out is the compiler's.
+      const float across = choices.next();
+      const float along = choices.next();
       const float u = choices.next();
+      const Eigen::Vector2f offset = squareToDisc(across, along) * kRadius;
       const int x = at.x + static_cast<int>(std::lround(offset.x()));
       const int y = at.y + static_cast<int>(std::lround(offset.y()));
       if (x < 0 || y < 0 || x >= format.width || y >= format.height || (x == at.x && y == at.y)) {

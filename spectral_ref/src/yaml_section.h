@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
@@ -17,8 +18,8 @@ namespace metamer::spectral_ref {
 /// One value of a scene file, read with checks; every complaint names file, line and column.
 class YamlValue {
  public:
-  YamlValue(YAML::Node node, std::string where, std::string field)
-      : m_node(std::move(node)), m_where(std::move(where)), m_field(std::move(field)) {}
+  YamlValue(const YAML::Node& node, std::string where, std::string field)
+      : m_node(node), m_where(std::move(where)), m_field(std::move(field)) {}
 
   spectral::InputError error(const std::string& value, const std::string& remedy) const;
   spectral::InputError error(const std::string& remedy) const { return error(scalarText(), remedy); }

@@ -39,7 +39,7 @@ std::vector<Eigen::Vector3d> randomColours(int count) {
   const auto uniform = [&random] { return 2.0 * unitRandom(random) - 1.0; };
   std::vector<Eigen::Vector3d> colours;
   for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d colour(uniform(), uniform(), uniform());
+    const Eigen::Vector3d colour{uniform(), uniform(), uniform()};  // in braces: one after another
     // Half of them around white, where most pieces meet.
     colours.push_back(i % 2 == 0 ? colour : Eigen::Vector3d(Eigen::Vector3d::Ones() + colour));
   }

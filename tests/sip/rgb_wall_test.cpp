@@ -79,7 +79,8 @@ TEST(RgbWall, HoldsWhite) {
   EXPECT_GT((held.corrected - wall.target).norm(), (free.corrected - wall.target).norm());
   // No matrix that holds white does better: small steps that keep Q p only make it worse.
   for (int i = 0; i < 100; ++i) {
-    Vector3d across(unitRandom(random) - 0.5, unitRandom(random) - 0.5, unitRandom(random) - 0.5);
+    // In braces: one after another.
+    Vector3d across{unitRandom(random) - 0.5, unitRandom(random) - 0.5, unitRandom(random) - 0.5};
     const Vector3d white = held.predicted.col(4).normalized();
     across -= across.dot(white) * white;
     Matrix3d step = Matrix3d::Zero();

@@ -33,7 +33,10 @@ std::vector<Vector3d> colours(int count, unsigned seed = 3) {
   const auto uniform = [&random] { return unitRandom(random); };
   std::vector<Vector3d> made;
   for (int i = 0; i < count; ++i) {
-    Vector3d colour(uniform(), uniform(), uniform());
+    const double blue = uniform();
+    const double green = uniform();
+    const double red = uniform();
+    Vector3d colour(red, green, blue);
     if (i % 3 == 1) {
       colour[i % 9 / 3] = 0.0;
     } else if (i % 3 == 2) {

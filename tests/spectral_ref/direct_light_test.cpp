@@ -92,8 +92,9 @@ TEST_P(ChartTest, EveryPatchIsWithinItsInterval) {
     const AreaMean mean = luminanceOver(film, pixels.x, pixels.y, pixels.width, pixels.height);
     Eigen::Vector3d actual = Eigen::Vector3d::Zero();
     for (int y = pixels.y; y < pixels.y + pixels.height; ++y) {
+      const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.format().width);
       for (int x = pixels.x; x < pixels.x + pixels.width; ++x) {
-        actual += film.colour(static_cast<std::size_t>(y * film.format().width + x));
+        actual += film.colour(row + static_cast<std::size_t>(x));
       }
     }
     actual /= static_cast<double>(pixels.width) * pixels.height;

@@ -48,12 +48,13 @@ TEST_P(HardSceneTest, ALampOfOneLine) {
 }
 
 TEST_P(HardSceneTest, BlackScenesAreBlack) {
-  for (const std::string& scene :
-       {kStart, kStart + "shapes:\n" + kWall, kStart + "lights: [{environment: {emission: 0}}]\nshapes:\n" + kWall,
-        kStart + kEvenLight +
+  // Nothing; no light; light of no power; paint that gives nothing back.
+  for (const std::string& rest :
+       {std::string(), "shapes:\n" + kWall, "lights: [{environment: {emission: 0}}]\nshapes:\n" + kWall,
+        kEvenLight +
             "shapes:\n  - rectangle: {center: [0, 0, 0], half_u: [2, 0, 0], half_v: [0, 2, 0]}\n    diffuse: 0\n"}) {
-    const Film film = rendered(sceneOf(scene), 8, GetParam());
-    EXPECT_EQ(meanOf(film).mean, 0.0) << scene;
+    const Film film = rendered(sceneOf(kStart + rest), 8, GetParam());
+    EXPECT_EQ(meanOf(film).mean, 0.0) << rest;
     EXPECT_EQ(film.refused, 0U);
   }
 }
@@ -128,7 +129,7 @@ TEST(HardSceneTest, DegenerateTrianglesAndPlacesThatAreNoNumberAreLeftOut) {
   const Scene damaged = scene(good + "v 0 0 1\nv 1 1 1\nv 2 2 1\nv nan 0 1\nf 1 1 2\nf 5 6 7\nf 5 6 8\n");
   EXPECT_EQ(damaged.meshes[0].dropped, 3);
   ASSERT_EQ(damaged.warnings.size(), 1U);
-  EXPECT_NE(damaged.warnings[0].find("3"), std::string::npos) << damaged.warnings[0];
+  EXPECT_NE(damaged.warnings[0].find('3'), std::string::npos) << damaged.warnings[0];
   EXPECT_EQ(rendered(damaged, 16).sums(), rendered(whole, 16).sums());
 }
 

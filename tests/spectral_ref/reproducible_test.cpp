@@ -41,7 +41,7 @@ TEST_P(ReproducibleTest, ACheckpointGoesOnBitByBit) {
   Renderer first(scene(), GetParam());
   first.render(21, kForever);
   Renderer second(scene(), GetParam());
-  second.restore(stateOf(first), "checkpoint");
+  restoreFrom(second, stateOf(first));
   second.render(90, kForever);
   EXPECT_EQ(second.film().sums(), whole.sums());
   EXPECT_EQ(second.film().ranges(), whole.ranges());

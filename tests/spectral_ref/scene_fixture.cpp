@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral_ref/scene_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,12 +26,22 @@ std::vector<unsigned char> stateOf(const Renderer& renderer) {
   return state;
 }
 
+void restoreFrom(Renderer& renderer, const std::vector<unsigned char>& state) {
+  std::size_t place = 0;
+  const auto take = [&](void* bytes, std::size_t size) {
+    std::copy_n(state.data() + place, size, static_cast<unsigned char*>(bytes));
+    place += size;
+  };
+  renderer.restore({take, state.size()}, "checkpoint");
+}
+
 AreaMean luminanceOver(const Film& film, int x, int y, int width, int height) {
   AreaMean result;
   double variance = 0;
   for (int row = y; row < y + height; ++row) {
+    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(film.format().width);
     for (int column = x; column < x + width; ++column) {
-      const Estimate estimate = film.luminance(static_cast<std::size_t>(row * film.format().width + column));
+      const Estimate estimate = film.luminance(first + static_cast<std::size_t>(column));
       result.mean += estimate.mean;
       variance += estimate.variance;
     }

@@ -19,6 +19,8 @@ Film rendered(const Scene& scene, std::uint64_t samples, const RenderOptions& op
 
 /// All bytes of a renderer's state.
 std::vector<unsigned char> stateOf(const Renderer& renderer);
+/// Restores a renderer from them.
+void restoreFrom(Renderer& renderer, const std::vector<unsigned char>& state);
 
 /// Mean of Y over a rectangle of pixels and its standard error, from the pixels' variances.
 struct AreaMean {

@@ -104,8 +104,9 @@ std::string nearLamps() {
       "  - rectangle: {center: [-2.5, 0, 0.5], half_u: [0, 1, 0], half_v: [0, 0, 0.5]}\n    emission: 1\n"
       "  - rectangle: {center: [-2.5, 1.5, 0.5], half_u: [0, 0.5, 0], half_v: [0, 0, 0.5]}\n    emission: line\n";
   for (int i = 0; i < 120; ++i) {
+    const int row = i / 12;
     const double x = -2.0 + 0.4 * (i % 12);
-    const double y = -1.8 + 0.4 * (i / 12);
+    const double y = -1.8 + 0.4 * row;
     text += "  - rectangle: {center: [" + std::to_string(x) + ", " + std::to_string(y) + ", " +
             std::to_string(0.05 + 0.1 * (i % 7)) + "], half_u: [0, 0.02, 0], half_v: [0.02, 0, 0]}\n    emission: " +
             (i % 5 == 0 ? "line" : std::to_string(1 + i % 3)) + "\n";

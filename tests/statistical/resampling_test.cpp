@@ -29,10 +29,13 @@ std::string lamps() {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int i = 0; i < 150; ++i) {
-    text += "  - rectangle: {center: [" + std::to_string(4.0 * unit(engine)) + ", " +
-            std::to_string(4.0 * unit(engine)) + ", " + std::to_string(1.5 + unit(engine)) + "], half_u: [0, 0.1, " +
-            std::to_string(0.05 * unit(engine)) + "], half_v: [0.1, 0, " + std::to_string(0.05 * unit(engine)) +
-            "]}\n    emission: " +
+    std::array<double, 5> number;
+    for (double& one : number) {
+      one = unit(engine);
+    }
+    text += "  - rectangle: {center: [" + std::to_string(4.0 * number[0]) + ", " + std::to_string(4.0 * number[1]) +
+            ", " + std::to_string(1.5 + number[2]) + "], half_u: [0, 0.1, " + std::to_string(0.05 * number[3]) +
+            "], half_v: [0.1, 0, " + std::to_string(0.05 * number[4]) + "]}\n    emission: " +
             (i % 3 == 0   ? "warm"
              : i % 3 == 1 ? "cold"
                           : "1") +
@@ -116,8 +119,9 @@ TEST_F(ResamplingTest, TheExtremeNumbersChooseTheFirstAndTheLast) {
 TEST_F(ResamplingTest, EveryNodeIsImportantWhereItsLightsAre) {
   for (int i = 0; i < 20000; ++i) {
     const auto light = static_cast<std::uint32_t>(next() * static_cast<float>(bounds.size()));
-    const Vec3 place(6.0F * next() - 3.0F, 6.0F * next() - 3.0F, 2.0F * next());
-    const Vec3 normal = Vec3(next() - 0.5F, next() - 0.5F, next() - 0.5F).normalized();
+    // In braces, so that numbers are drawn in the order they stand in.
+    const Vec3 place{6.0F * next() - 3.0F, 6.0F * next() - 3.0F, 2.0F * next()};
+    const Vec3 normal = Vec3{next() - 0.5F, next() - 0.5F, next() - 0.5F}.normalized();
     const LightSample seen = lights.located({light, next(), next()}, place);
     if (!(seen.pdf > 0.0F) || !(seen.direction.dot(normal) > 1e-4F)) {
       continue;
@@ -152,9 +156,11 @@ TEST_F(ResamplingTest, ReservoirsStandForTheirIntegral) {
       return sampler.fresh(domains[d], numbers.candidates(7, ReservoirSampler<4>::kLog2Candidates), next());
     };
     Reservoir<4> own = fresh(0);
-    sampler.merge(own, fresh(1), 2.0F, next());
+    const Reservoir<4> other = fresh(1);
+    sampler.merge(own, other, 2.0F, next());
     Reservoir<4> again = fresh(1);
-    sampler.merge(again, fresh(0), 1.0F, next());
+    const Reservoir<4> first = fresh(0);
+    sampler.merge(again, first, 1.0F, next());
     sampler.merge(own, again, 3.0F, next());
     const double value = static_cast<double>(own.contribution) * static_cast<double>(own.target);
     ASSERT_FLOAT_EQ(own.contribution > 0.0F ? sampler.target(own.point, own.domain) : 0.0F, own.target);

@@ -79,7 +79,7 @@ TEST(WavelengthDensityTest, EveryLaneFollowsTheTable) {
 }
 
 TEST(WavelengthDensityTest, EveryLaneFollowsTheGuideAndNoDensityIsZero) {
-  constexpr int kSide = 16;
+  constexpr std::size_t kSide = 16;
   const spectral::DomainSamples lamp = spectral::DomainSamples::LinSpaced(0.2, 1.0);
   WavelengthGuide guide(kSide, kSide, 4, lamp);
   Random random;
@@ -102,7 +102,7 @@ TEST(WavelengthDensityTest, EveryLaneFollowsTheGuideAndNoDensityIsZero) {
   EXPECT_FALSE(guide.isUniform());
   expectLanesFollow(guide.picture(), WavelengthTable::kDefensive, "picture");
   const std::size_t black = kSide * kSide - 1;
-  for (const std::size_t pixel : {std::size_t{0}, std::size_t{kSide + 1}}) {
+  for (const std::size_t pixel : {std::size_t{0}, kSide + 1}) {
     ASSERT_TRUE(guide.hasOwn(pixel)) << pixel;
     expectLanesFollow(guide.pixel(pixel),
                       WavelengthTable::kDefensive * static_cast<double>(WavelengthGuide::kPictureShare),
@@ -128,29 +128,31 @@ TEST(WavelengthDensityTest, EvenLightStaysUniform) {
 /// Directions by cells of equal solid angle.
 constexpr int kColumns = 24;
 constexpr int kRows = 16;
+constexpr std::size_t kDirectionCells = std::size_t{kColumns} * kRows;
 std::size_t cellOf(const Vec3& d) {
   float phi = std::atan2(d.y(), d.x()) / (2.0F * kPi);
   phi -= std::floor(phi);
   const int column = std::min(static_cast<int>(phi * kColumns), kColumns - 1);
   const int row = std::clamp(static_cast<int>((d.z() + 1.0F) * 0.5F * kRows), 0, kRows - 1);
-  return static_cast<std::size_t>(row * kColumns + column);
+  return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
 }
 template <typename Density>
 std::vector<double> expectedIn(const Density& density, double draws) {
   constexpr int kFine = 48;
-  std::vector<double> expected(kColumns * kRows);
+  std::vector<double> expected(kDirectionCells);
   for (std::size_t cell = 0; cell < expected.size(); ++cell) {
+    const std::size_t row = cell / kColumns;
     double sum = 0;
     for (int i = 0; i < kFine; ++i) {
       for (int j = 0; j < kFine; ++j) {
-        const double z = ((static_cast<double>(cell / kColumns) + (i + 0.5) / kFine) / kRows) * 2.0 - 1.0;
+        const double z = ((static_cast<double>(row) + (i + 0.5) / kFine) / kRows) * 2.0 - 1.0;
         const double phi = 2.0 * M_PI * (static_cast<double>(cell % kColumns) + (j + 0.5) / kFine) / kColumns;
         const double sine = std::sqrt(1.0 - z * z);
         sum += density(Vec3(static_cast<float>(sine * std::cos(phi)), static_cast<float>(sine * std::sin(phi)),
                             static_cast<float>(z)));
       }
     }
-    expected[cell] = draws * sum / (kFine * kFine) * 4.0 * M_PI / (kColumns * kRows);
+    expected[cell] = draws * sum / (kFine * kFine) * 4.0 * M_PI / kDirectionCells;
   }
   return expected;
 }
@@ -178,10 +180,12 @@ TEST_P(BsdfTest, SamplesFollowTheirDensity) {
       continue;
     }
     constexpr int kDraws = 200000;
-    std::vector<double> counts(kColumns * kRows);
+    std::vector<double> counts(kDirectionCells);
     double found = 0;
     for (int i = 0; i < kDraws; ++i) {
-      const auto sample = bsdf().sample(out, random.next(), random.next(), [&] { return random.next(); });
+      const float u = random.next();
+      const float v = random.next();
+      const auto sample = bsdf().sample(out, u, v, [&] { return random.next(); });
       if (sample.pdf[0] > 0.0F) {
         counts[cellOf(sample.direction)] += 1;
         found += 1;
@@ -203,7 +207,9 @@ TEST_P(BsdfTest, EnergyAndReciprocity) {
   const auto wavelengths = someWavelengths();
   for (int i = 0; i < 200; ++i) {
     const auto direction = [&] {
-      const Vec3 local = squareToCosineHemisphere(random.next(), random.next());
+      const float u = random.next();
+      const float v = random.next();
+      const Vec3 local = squareToCosineHemisphere(u, v);
       return Vec3(local.x(), local.y(), std::max(local.z(), 0.05F)).normalized();
     };
     const Vec3 a = direction();
@@ -219,7 +225,9 @@ TEST_P(BsdfTest, EnergyAndReciprocity) {
     Eigen::Array4d sum = Eigen::Array4d::Zero();
     constexpr int kDraws = 40000;
     for (int i = 0; i < kDraws; ++i) {
-      const auto sample = bsdf().sample(out, random.next(), random.next(), [&] { return random.next(); });
+      const float u = random.next();
+      const float v = random.next();
+      const auto sample = bsdf().sample(out, u, v, [&] { return random.next(); });
       // Radiance changes with the square of the index across a surface; power does not.
       Lanes<4> weight = sample.weight;
       if (sample.direction.z() < 0.0F && weight[0] > 0.0F) {
@@ -256,9 +264,12 @@ TEST(LightDensityTest, DirectionsFollowTheDensityOfTheirHits) {
   const Vec3 from(0.2F, -0.5F, 0.1F);
   Random random;
   constexpr int kDraws = 300000;
-  std::vector<double> counts(kColumns * kRows);
+  std::vector<double> counts(kDirectionCells);
   for (int i = 0; i < kDraws; ++i) {
-    const LightSample sample = lights.sample(lights.choose(random.bits(), random.next(), random.next()), from);
+    const std::uint32_t bits = random.bits();
+    const float u = random.next();
+    const float v = random.next();
+    const LightSample sample = lights.sample(lights.choose(bits, u, v), from);
     ASSERT_GT(sample.pdf, 0.0F);
     counts[cellOf(sample.direction)] += 1;
   }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <vector>
 
 namespace metamer::spectral_ref {
 
@@ -16,8 +16,15 @@ using ByteSink = std::function<void(const void* bytes, std::size_t size)>;
 /// @throws spectral::InputError (full disk; an older checkpoint stays as it was)
 void writeCheckpoint(const std::function<void(const ByteSink&)>& state, const std::filesystem::path& file);
 
-/// The bytes of a state.
+/// A state, to be taken piece by piece and in order.
+struct ByteSource {
+  std::function<void(void* bytes, std::size_t size)> take;  ///< stores the next `size` bytes
+  std::uint64_t size = 0;                                   ///< of the whole state
+};
+
+/// Reads a state piece by piece, with no copy of the whole. Its check sum is compared before `state` sees anything.
+/// @param state  takes bytes from the source that it is given, as Renderer::restore does
 /// @throws spectral::InputError: unreadable, damaged
-std::vector<unsigned char> readCheckpoint(const std::filesystem::path& file);
+void readCheckpoint(const std::filesystem::path& file, const std::function<void(const ByteSource&)>& state);
 
 }  // namespace metamer::spectral_ref

@@ -62,9 +62,10 @@ class Renderer {
 
   /// All state as bytes, piece by piece: it may be a gigabyte. restore() goes on from there, bit by bit.
   void writeState(const ByteSink& sink) const;
-  /// @throws spectral::InputError where the bytes are not of this scene and these options
+  /// @throws spectral::InputError where the bytes are not of this scene and these options; where they end early, the
+  ///         renderer is of no more use
   /// @param where  what messages call the bytes
-  void restore(const std::vector<unsigned char>& state, const std::string& where);
+  void restore(const ByteSource& state, const std::string& where);
 
  private:
   struct State;
