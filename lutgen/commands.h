@@ -2,19 +2,34 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <string_view>
 
 namespace metamer::lutgen {
 
-/// Exit code of a verdict: what was measured is beyond the tolerance.
-inline constexpr int kExceeded = 3;
+/// A subcommand as the help names it.
+struct CommandName {
+  std::string_view name;
+  std::string_view purpose;
+
+  CLI::App* addTo(CLI::App& application) const {
+    return application.add_subcommand(std::string(name), std::string(purpose));
+  }
+};
+
+inline constexpr CommandName kApply{"apply", "Apply a recipe, exactly, or a LUT file to a picture"};
+inline constexpr CommandName kCompare{"compare",
+                                      "Tell how far two transforms or pictures are apart; exit 3 beyond the tolerance"};
+inline constexpr CommandName kStage{"stage", "LED stages: walls, fixtures and what they do to colours"};
+inline constexpr CommandName kValidate{"validate",
+                                       "Render scenes under both lights of a recipe and judge its transform by them"};
+
+/// What the program lutgen-pictures does.
+inline constexpr std::array<CommandName, 4> kPictureCommands = {kApply, kCompare, kStage, kValidate};
 
 /// Each adds one subcommand, which does its work when the command line has been parsed.
 void addBake(CLI::App& application);
-void addApply(CLI::App& application);
 void addList(CLI::App& application);
 void addConfig(CLI::App& application);
-void addCompare(CLI::App& application);
-void addStage(CLI::App& application);
-void addValidate(CLI::App& application);
 
 }  // namespace metamer::lutgen

@@ -1,55 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenColorIO/OpenColorIO.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <iostream>
-#include <string>
 
 #include "commands.h"
+#include "metamer/spectral/platform.h"
+#include "run.h"
 
 namespace {
 
-constexpr int kFailure = 1;
-constexpr int kUsageError = 2;
+using namespace metamer::lutgen;
 
-/// One line on stderr, whatever the text holds.
-int fail(std::string message, int code) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::cerr << "lutgen: " << message << std::endl;
-  return code;
+/// Reading pictures takes libraries that are slow to load; what does without them need not wait.
+constexpr const char* kPicturesProgram = "lutgen-pictures";
+
+bool isForPictures(const char* argument) {
+  return std::any_of(kPictureCommands.begin(), kPictureCommands.end(),
+                     [argument](const CommandName& command) { return command.name == argument; });
+}
+
+void addCommands(CLI::App& application) {
+  addBake(application);
+  addList(application);
+  addConfig(application);
+  for (const CommandName& command : kPictureCommands) {  // for the help alone
+    command.addTo(application)->callback([] { throw CLI::ValidationError("command", "must come first"); });
+  }
 }
 
 }  // namespace
 
 int main(int argumentCount, char** arguments) {
-  // What OpenColorIO would say comes as an exception as well.
-  OCIO_NAMESPACE::SetLoggingLevel(OCIO_NAMESPACE::LOGGING_LEVEL_NONE);
-  CLI::App application("Colour transforms from spectra: LUT files and pictures under another light.", "lutgen");
-  application.set_version_flag("--version", std::string("lutgen ") + METAMER_VERSION);
-  application.require_subcommand(1);
-  metamer::lutgen::addBake(application);
-  metamer::lutgen::addApply(application);
-  metamer::lutgen::addList(application);
-  metamer::lutgen::addConfig(application);
-  metamer::lutgen::addCompare(application);
-  metamer::lutgen::addStage(application);
-  metamer::lutgen::addValidate(application);
-  try {
-    application.parse(argumentCount, arguments);
-    std::cout.flush();
-    return std::cout ? 0 : fail("standard output cannot be written", kFailure);
-  } catch (const CLI::RuntimeError& verdict) {
-    std::cout.flush();
-    return verdict.get_exit_code();  // what a command found, not a failure
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-      return application.exit(error);  // help or version, on stdout
-    }
-    return fail(std::string(error.what()) + "; see lutgen --help", kUsageError);
-  } catch (const std::bad_alloc&) {
-    return fail("not enough memory", kFailure);
-  } catch (const std::exception& error) {
-    return fail(error.what(), kFailure);
+  if (argumentCount > 1 && isForPictures(arguments[1])) {
+    const auto program = metamer::spectral::programFolder() / kPicturesProgram;
+    metamer::spectral::becomeProgram(program, arguments);
+    return fail(program.string() + ": cannot be run; it belongs beside lutgen, install both", kFailure);
   }
+  return run(argumentCount, arguments, addCommands);
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/spectral/platform.h"
 
+#include <cstdlib>
 #include <system_error>
 #include <vector>
 
 #if defined(_WIN32)
 #include <io.h>
+#include <process.h>
 #include <windows.h>
 #else
 #include <dlfcn.h>
@@ -34,6 +36,17 @@ std::filesystem::path programFolder() {
 #else
   std::error_code error;
   return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+#endif
+}
+
+void becomeProgram(const std::filesystem::path& program, char** arguments) {
+#if defined(_WIN32)
+  const intptr_t status = _spawnv(_P_WAIT, program.string().c_str(), arguments);
+  if (status != -1) {
+    std::exit(static_cast<int>(status));
+  }
+#else
+  execv(program.c_str(), arguments);
 #endif
 }
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
 #include "metamer/spectral/pending_file.h"
+#include "picture_commands.h"
 #include "validation.h"
 
 namespace metamer::lutgen {
@@ -119,8 +119,7 @@ void run(const ValidateArguments& arguments) {
 }  // namespace
 
 void addValidate(CLI::App& application) {
-  CLI::App* command = application.add_subcommand(
-      "validate", "Render scenes under both lights of a recipe and judge its transform by them");
+  CLI::App* command = kValidate.addTo(application);
   const auto arguments = std::make_shared<ValidateArguments>();
   command->add_option("RECIPE", arguments->recipe, "Recipe file")->required();
   command->add_option("--json", arguments->json, "Write all figures, patch by patch");

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "commands.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/working_space.h"
 #include "metamer/sip/homogeneous_map.h"
@@ -11,6 +10,7 @@
 #include "metamer/spectral/text.h"
 #include "overrides.h"
 #include "picture.h"
+#include "picture_commands.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -90,7 +90,7 @@ void apply(const ApplyOptions& options, bool hasOverrides) {
 }  // namespace
 
 void addApply(CLI::App& application) {
-  CLI::App* command = application.add_subcommand("apply", "Apply a recipe, exactly, or a LUT file to a picture");
+  CLI::App* command = kApply.addTo(application);
   const auto options = std::make_shared<ApplyOptions>();
   command->add_option("TRANSFORM", options->transform, "Recipe (.yaml), or a LUT file that OpenColorIO reads")
       ->required();

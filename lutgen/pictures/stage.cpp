@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands.h"
+#include "picture_commands.h"
 #include "stage_commands.h"
 
 namespace metamer::lutgen {
 
 void addStage(CLI::App& application) {
-  CLI::App* stage = application.add_subcommand("stage", "LED stages: walls, fixtures and what they do to colours");
+  CLI::App* stage = kStage.addTo(application);
   stage->require_subcommand(1);
   addStageSolve(*stage);
   addStageMatch(*stage);

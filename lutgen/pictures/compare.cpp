@@ -7,7 +7,6 @@
 #include <iostream>
 #include <memory>
 
-#include "commands.h"
 #include "compare_report.h"
 #include "heat_map.h"
 #include "metamer/ocio/compared_transform.h"
@@ -17,6 +16,7 @@
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
 #include "picture.h"
+#include "picture_commands.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -206,8 +206,7 @@ void compare(const CompareArguments& arguments) {
 }  // namespace
 
 void addCompare(CLI::App& application) {
-  CLI::App* command = application.add_subcommand(
-      "compare", "Tell how far two transforms or pictures are apart; exit 3 beyond the tolerance");
+  CLI::App* command = kCompare.addTo(application);
   const auto arguments = std::make_shared<CompareArguments>();
   const std::string what = "Recipe (.yaml), LUT file, look of a config (CONFIG.ocio:LOOK) or picture";
   command->add_option("A", arguments->a, what)->required();

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "picture_commands.h"
+#include "run.h"
+
+// The commands that read pictures or render: lutgen hands over to this program.
+int main(int argumentCount, char** arguments) {
+  return metamer::lutgen::run(argumentCount, arguments, [](CLI::App& application) {
+    metamer::lutgen::addApply(application);
+    metamer::lutgen::addCompare(application);
+    metamer::lutgen::addStage(application);
+    metamer::lutgen::addValidate(application);
+  });
+}
