@@ -5,6 +5,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.ticker import NullFormatter  # noqa: E402
 
 
 def figure(vertical, horizontal):
@@ -25,15 +26,26 @@ def sheet(panels):
     return drawing, axes["top"], [axes[name] for name in below]
 
 
+def row_of(panels):
+    """A drawing and a row of this many panels."""
+    drawing, axes = plt.subplots(1, panels, figsize=(3.7 * panels, 3.9), layout="constrained", squeeze=False)
+    return drawing, list(axes[0])
+
+
 def save(drawing, axes, path):
     write(drawing, [axes], path)
 
 
-def write(drawing, panels, path):
+def write(drawing, panels, path, named=None):
+    """Writes the drawing. named: the panels that say which line is which; all without it."""
     for axes in panels:
         axes.grid(True, which="both", color="0.92")
         axes.set_axisbelow(True)
-        axes.legend(fontsize=8, framealpha=0.9)
+        for axis in (axes.xaxis, axes.yaxis):
+            if axis.get_scale() == "log":
+                axis.set_minor_formatter(NullFormatter())
+        if named is None or axes in named:
+            axes.legend(fontsize=8 if len(panels) == 1 else 6, framealpha=0.9)
     # No dates or versions inside: the same figures give the same file.
     drawing.savefig(path, dpi=110, metadata={"Software": None})
     plt.close(drawing)

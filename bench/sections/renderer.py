@@ -110,19 +110,19 @@ def markdown(results):
                         "(asked: 2,048)."]
 
 
+def draw(row, axes):
+    """A scene's noise against time."""
+    for name, points in row["curves"].items():
+        axes.loglog([p["seconds"] for p in points], [p["mse"][1] for p in points], "o-", ms=3, label=name)
+    axes.set_title(row["scene"], fontsize=9)
+    axes.set_xlabel("user CPU seconds")
+    axes.set_ylabel("mean square error of Y")
+
+
 def plot(results, path):
-    from plotting import plt
+    from plotting import row_of, write
 
-    drawing, panels = plt.subplots(1, len(results["noise"]), figsize=(11, 3.9), layout="constrained")
+    drawing, panels = row_of(len(results["noise"]))
     for axes, row in zip(panels, results["noise"]):
-        for name, points in row["curves"].items():
-            axes.loglog([p["seconds"] for p in points], [p["mse"][1] for p in points], "o-", ms=3, label=name)
-        axes.set_title(row["scene"], fontsize=10)
-        axes.set_xlabel("user CPU seconds")
-        axes.grid(True, which="both", color="0.92")
-        axes.set_axisbelow(True)
-    panels[0].set_ylabel("MSE of Y")
-    panels[-1].legend(fontsize=8)
-    drawing.savefig(path, dpi=110, metadata={"Software": None})
-    plt.close(drawing)
-
+        draw(row, axes)
+    write(drawing, panels, path, named=panels[:1])

@@ -108,12 +108,12 @@ class Compilers(unittest.TestCase):
 
 class Fronts(unittest.TestCase):
     def test_a_panel_a_scene(self):
-        curves = [{"scene": scene, "method": method, "points": [[1, 0.1], [4, 0.02]]}
-                  for scene in ("chart", "box") for method in ("uniform", "guided")]
+        points = [{"seconds": 1, "mse": [0.2, 0.1, 0.2]}, {"seconds": 4, "mse": [0.1, 0.02, 0.1]}]
+        noise = [{"scene": scene, "curves": {"uniform": points, "guided": points}} for scene in ("chart", "box")]
         results = {"transforms": {"figures": ROWS}}
         with tempfile.TemporaryDirectory() as folder:
             heights = []
-            for extra in ({}, {"renderer": {"figures": {"curves": curves}}}):
+            for extra in ({}, {"renderer": {"figures": {"noise": noise}}}):
                 path = Path(folder) / "fronts.png"
                 self.assertTrue(report.fronts.draw(results | extra, path))
                 with Image.open(path) as picture:
