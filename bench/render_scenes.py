@@ -135,3 +135,10 @@ class Runs:
 def price(cost, channel=1):
     """Time x MSE, which does not depend on how long one renders: noise falls with the time spent."""
     return cost["seconds"] * cost["mse"][channel]
+
+
+def best_over_mitsuba(curves):
+    """Price of our best method over that of Mitsuba's better variant, the second count of samples each; None without it."""
+    ours, theirs = ([price(points[1]) for name, points in curves.items() if name.startswith("Mitsuba") == is_theirs]
+                    for is_theirs in (False, True))
+    return min(ours) / min(theirs) if theirs else None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 import defaults
-from render_scenes import price
+from render_scenes import best_over_mitsuba
 
 
 @dataclass(frozen=True)
@@ -106,10 +106,7 @@ def _restir(lights):
 
 def _mitsuba(place):
     """Time x MSE of our best method over that of Mitsuba's better one, the same samples each, the worst such scene."""
-    def ratio(curves):
-        ours = min(price(points[1]) for name, points in curves.items() if not name.startswith("Mitsuba"))
-        return ours / min(price(points[1]) for name, points in curves.items() if name.startswith("Mitsuba"))
-    return lambda f: _largest(ratio(row["curves"]) for row in f["noise"] if row["scene"].startswith(place))
+    return lambda f: _largest(best_over_mitsuba(row["curves"]) for row in f["noise"] if row["scene"].startswith(place))
 
 
 TABLE_COST = "where memory is slow, a frame takes its time whatever is computed"

@@ -7,6 +7,11 @@
 #include <iostream>
 
 namespace metamer::lutgen {
+namespace {
+
+constexpr int kUsageError = 2;
+
+}  // namespace
 
 int fail(std::string message, int code) {
   std::replace(message.begin(), message.end(), '\n', ' ');

@@ -11,7 +11,6 @@ namespace metamer::lutgen {
 int fail(std::string message, int code);
 
 inline constexpr int kFailure = 1;
-inline constexpr int kUsageError = 2;
 
 /// Parses a command line and does what it says.
 /// @param addCommands  adds the program's subcommands

@@ -97,10 +97,8 @@ def markdown(results):
         for name, points in curves.items():
             cells = [f"{price(p) / price(u):.3g}" for p, u in zip(points, curves["uniform"])]
             lines.append(f"| {name} | " + " | ".join(cells + [""] * (len(counts) - len(cells))) + " |")
-        best = {n: min(price(p[1]) for k, p in curves.items() if k.startswith("Mitsuba") == n) for n in (False, True)
-                if any(k.startswith("Mitsuba") == n for k in curves)}
-        if True in best:
-            lines += ["", f"Best of ours over the better Mitsuba, {counts[1]} samples each: {best[False] / best[True]:.3g}."]
+        if (ratio := scenes.best_over_mitsuba(curves)) is not None:
+            lines += ["", f"Best of ours over the better Mitsuba, {counts[1]} samples each: {ratio:.3g}."]
         lines.append("")
     lines += [f"ReSTIR against next-event estimation by power, {results['restir_samples']} samples, equal time: MSE of Y lower by", "",
               "| lights | hero | lanes | asked |", "| --- | --- | --- | --- |"]

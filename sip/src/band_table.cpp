@@ -28,6 +28,14 @@ void BandTable::addBands(int from, int to, int first, RunSums& sums) const {
   sums = running;
 }
 
+Eigen::Vector3d BandTable::sumOf(const Eigen::VectorXd& spectrum) const {
+  Eigen::Array4d sum = Eigen::Array4d::Zero();
+  for (int b = 0; b < bandCount(); ++b) {
+    sum += weight(b) * spectrum[b];
+  }
+  return sum.matrix().head<3>();
+}
+
 RunSums BandTable::sumsOver(int first, int end) const {
   RunSums sums;
   const int firstBlock = (first + kBlock - 1) / kBlock;

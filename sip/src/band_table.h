@@ -31,6 +31,8 @@ class BandTable {
   /// The weights again, a column a channel.
   const Eigen::ArrayX3d& channels() const { return m_channels; }
   RunSums sumsOver(int first, int end) const;
+  /// The weights' sums of a spectrum.
+  Eigen::Vector3d sumOf(const Eigen::VectorXd& spectrum) const;
 
  private:
   static constexpr int kBlock = 16;

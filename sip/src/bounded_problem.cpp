@@ -13,11 +13,7 @@ constexpr double kResidualTolerance = 1e-9;
 }  // namespace
 
 bool BoundedProblem::meets(const Eigen::VectorXd& spectrum) const {
-  Eigen::Array4d sum = Eigen::Array4d::Zero();
-  for (int b = 0; b < bandCount; ++b) {
-    sum += table.weight(b) * spectrum[b];
-  }
-  return (sum.matrix().head<3>() - target).norm() <= kResidualTolerance * target.norm();
+  return (table.sumOf(spectrum) - target).norm() <= kResidualTolerance * target.norm();
 }
 
 double toleranceOf(const Eigen::VectorXd& spectrum) {
@@ -31,7 +27,7 @@ bool conclude(const BoundedProblem& problem, const ReducedSystem& system, Trial&
       return true;
     }
   }
-  system.solve(problem.target, true, trial);
+  system.refine(problem.target, trial);
   return problem.meets(trial.spectrum);
 }
 

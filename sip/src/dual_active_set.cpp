@@ -38,7 +38,7 @@ bool dualActiveSet(const BoundedProblem& problem, BandStates& states, Trial& tri
     if (entering < 0) {
       ++rounds;
       const ReducedSystem system = problem.system(states);
-      system.solve(problem.target, false, trial);
+      system.solve(problem.target, trial);
       return conclude(problem, system, trial, linearised);
     }
     const double sign = signOf(enteringBound);
@@ -51,7 +51,8 @@ bool dualActiveSet(const BoundedProblem& problem, BandStates& states, Trial& tri
     for (; step < mostSteps; ++step) {
       const ReducedSystem system(problem.table, states, &push, ReducedSystem::Held::AtZero);
       ++rounds;
-      system.solve(Eigen::Vector3d::Zero(), true, direction);
+      system.solve(Eigen::Vector3d::Zero(), direction);
+      system.refine(Eigen::Vector3d::Zero(), direction);
       double releaseStep = std::numeric_limits<double>::infinity();
       int leaving = -1;
       for (int b = 0; b < problem.bandCount; ++b) {

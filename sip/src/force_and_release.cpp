@@ -61,7 +61,7 @@ bool revise(const BoundedProblem& problem, const ReducedSystem& system, const Tr
       }
     }
     for (int b = first + 1; b + 1 < end; ++b) {
-      if (sign * (trial.pull[b] + system.guideForceAt(b)) > tolerance) {
+      if (sign * (trial.pull[b] + system.guideForce(b)) > tolerance) {
         release(b);
       }
     }
@@ -84,7 +84,7 @@ bool forceAndRelease(const BoundedProblem& problem, BandStates& states, Trial& t
     if (!system.fullRank()) {
       return false;
     }
-    system.solve(problem.target, false, trial);
+    system.solve(problem.target, trial);
     if (revise(problem, system, trial, states, revised)) {
       return conclude(problem, system, trial, linearised);
     }

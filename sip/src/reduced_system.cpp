@@ -55,6 +55,9 @@ ReducedSystem::ReducedSystem(const BandTable& table, const BandStates& states, c
 }
 
 double ReducedSystem::guideForce(int band) const {
+  if (m_guide == nullptr) {
+    return 0.0;
+  }
   const Eigen::VectorXd& f = m_guide->values;
   const double left = band > 0 ? f[band] - f[band - 1] : 0.0;
   const double right = band + 1 < m_table.bandCount() ? f[band] - f[band + 1] : -m_guide->endSlope;
@@ -113,9 +116,9 @@ void ReducedSystem::fix(const Run& run) {
 }
 
 void ReducedSystem::invert(const Eigen::Matrix3d& schur) {
-  Eigen::Vector4d offset = Eigen::Vector4d::Zero();  // what the fixed part already gives
-  for (int b = 0; b < static_cast<int>(m_fixed.size()); ++b) {
-    offset += (m_table.weight(b) * m_fixed[b]).matrix();
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // what the fixed part already gives
+  if (m_fixed.size() > 0) {
+    offset = m_table.sumOf(m_fixed);
   }
   m_inverse.setZero();
   if (!m_nothingHeld) {
@@ -134,7 +137,7 @@ void ReducedSystem::invert(const Eigen::Matrix3d& schur) {
       inverse = pseudoInverse<3>(scaled, m_fullRank);
     }
     m_inverse.topRows<3>() = scale.asDiagonal() * inverse * scale.asDiagonal();
-    m_start = -m_inverse * offset.head<3>();
+    m_start = -m_inverse * offset;
     return;
   }
   // R = fixed - multipliers . Q + height, and a natural end: multipliers . (sum of A) = the guide's slope there.
@@ -157,17 +160,17 @@ void ReducedSystem::invert(const Eigen::Matrix3d& schur) {
   const Eigen::Matrix4d inverse =
       allScales.asDiagonal() * pseudoInverse<4>(scaled, m_fullRank) * allScales.asDiagonal();
   m_inverse = inverse.leftCols<3>();
-  Eigen::Vector4d right = -offset;
-  right[3] = m_guide != nullptr ? m_guide->endSlope : 0.0;
+  Eigen::Vector4d right;
+  right << -offset, m_guide != nullptr ? m_guide->endSlope : 0.0;
   m_start = inverse * right;
 }
 
-void ReducedSystem::evaluate(const Eigen::Vector4d& unknowns, Trial& trial) const {
+void ReducedSystem::evaluate(Trial& trial) const {
+  const Eigen::Vector4d& unknowns = trial.unknowns;
   const auto along = [&unknowns](const Eigen::Array4d& lanes) {
     return lanes[0] * unknowns[0] + lanes[1] * unknowns[1] + lanes[2] * unknowns[2];
   };
   const Eigen::ArrayX3d& channels = m_table.channels();
-  trial.multipliers = unknowns.head<3>();
   trial.pull = channels.col(0) * unknowns[0] + channels.col(1) * unknowns[1] + channels.col(2) * unknowns[2];
   if (m_fixed.size() > 0) {
     trial.spectrum = m_fixed;
@@ -189,22 +192,18 @@ void ReducedSystem::evaluate(const Eigen::Vector4d& unknowns, Trial& trial) cons
   }
 }
 
-void ReducedSystem::solve(const Eigen::Vector3d& target, bool refine, Trial& trial) const {
-  Eigen::Vector4d unknowns = m_start + m_inverse * target;
-  evaluate(unknowns, trial);
-  if (refine) {
-    Eigen::Array4d sum = Eigen::Array4d::Zero();
-    for (int b = 0; b < m_table.bandCount(); ++b) {
-      sum += m_table.weight(b) * trial.spectrum[b];
-    }
-    unknowns += m_inverse * (target - sum.matrix().head<3>());
-    evaluate(unknowns, trial);
-  }
+void ReducedSystem::solve(const Eigen::Vector3d& target, Trial& trial) const {
+  trial.unknowns = m_start + m_inverse * target;
+  evaluate(trial);
 }
 
-Eigen::Matrix3d ReducedSystem::response(const Eigen::MatrixX3d& functionals) const {
-  // Row k: sum over the free bands of F[k] times what a unit multiplier makes there.
-  std::array<Eigen::Array4d, 3> sums = {Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero()};
+void ReducedSystem::refine(const Eigen::Vector3d& target, Trial& trial) const {
+  trial.unknowns += m_inverse * (target - m_table.sumOf(trial.spectrum));
+  evaluate(trial);
+}
+
+template <typename Visit>
+void ReducedSystem::visitFree(const Visit& visit) const {
   for (int i = 0; i < m_runCount; ++i) {
     const Run& run = m_runs[static_cast<std::size_t>(i)];
     Eigen::Array4d line = run.base;
@@ -212,14 +211,20 @@ Eigen::Matrix3d ReducedSystem::response(const Eigen::MatrixX3d& functionals) con
     Eigen::Array4d curve = Eigen::Array4d::Zero();
     for (int b = run.first; b < run.end; ++b) {
       line += run.slope;
-      const Eigen::Array4d unit = line - curve;
-      sums[0] += functionals(b, 0) * unit;
-      sums[1] += functionals(b, 1) * unit;
-      sums[2] += functionals(b, 2) * unit;
+      visit(b, Eigen::Array4d(line - curve));
       curveSlope += m_table.weight(b);
       curve += curveSlope;
     }
   }
+}
+
+Eigen::Matrix3d ReducedSystem::response(const Eigen::MatrixX3d& functionals) const {
+  std::array<Eigen::Array4d, 3> sums = {Eigen::Array4d::Zero(), Eigen::Array4d::Zero(), Eigen::Array4d::Zero()};
+  visitFree([&](int b, const Eigen::Array4d& unit) {
+    sums[0] += functionals(b, 0) * unit;
+    sums[1] += functionals(b, 1) * unit;
+    sums[2] += functionals(b, 2) * unit;
+  });
   Eigen::Matrix3d perMultiplier;
   for (int row = 0; row < 3; ++row) {
     perMultiplier.row(row) = sums[static_cast<std::size_t>(row)].head<3>().matrix().transpose();
@@ -234,19 +239,10 @@ Eigen::Matrix3d ReducedSystem::response(const Eigen::MatrixX3d& functionals) con
 Eigen::MatrixX3d ReducedSystem::response() const {
   Eigen::MatrixX3d matrix = Eigen::MatrixX3d::Zero(m_table.bandCount(), 3);
   const Eigen::Matrix3d multipliers = m_inverse.topRows<3>();
-  for (int i = 0; i < m_runCount; ++i) {
-    const Run& run = m_runs[static_cast<std::size_t>(i)];
-    Eigen::Array4d line = run.base;
-    Eigen::Array4d curveSlope = Eigen::Array4d::Zero();
-    Eigen::Array4d curve = Eigen::Array4d::Zero();
-    for (int b = run.first; b < run.end; ++b) {
-      line += run.slope;
-      const Eigen::RowVector3d pull = (line - curve).head<3>().matrix().transpose();
-      matrix.row(b).noalias() = pull * multipliers;
-      curveSlope += m_table.weight(b);
-      curve += curveSlope;
-    }
-  }
+  visitFree([&](int b, const Eigen::Array4d& unit) {
+    const Eigen::RowVector3d pull = unit.head<3>().matrix().transpose();
+    matrix.row(b).noalias() = pull * multipliers;
+  });
   if (m_nothingHeld) {
     matrix.rowwise() += m_inverse.row(3);
   }

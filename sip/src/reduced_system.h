@@ -19,8 +19,8 @@ struct Guide {
 
 /// A spectrum and what pulls at it.
 struct Trial {
+  Eigen::Vector4d unknowns;  ///< the multipliers, and the line's height where nothing is held
   Eigen::VectorXd spectrum;
-  Eigen::Vector3d multipliers;
   Eigen::ArrayXd pull;  ///< A^T multipliers
 };
 
@@ -39,20 +39,21 @@ class ReducedSystem {
   /// @param guide  F, or null for zero. All arguments outlive the system.
   ReducedSystem(const BandTable& table, const BandStates& states, const Guide* guide, Held held);
 
-  /// Spectrum whose weights sum to `target`, with its multipliers. One step of iterative refinement where `refine`:
-  /// near the spectral locus the free bands' weights are almost collinear and half the digits are lost.
-  void solve(const Eigen::Vector3d& target, bool refine, Trial& trial) const;
+  /// Spectrum whose weights sum to `target`.
+  void solve(const Eigen::Vector3d& target, Trial& trial) const;
+  /// One step of iterative refinement of what solve() gave: near the spectral locus the free bands' weights are almost
+  /// collinear and half the digits are lost.
+  void refine(const Eigen::Vector3d& target, Trial& trial) const;
 
   /// How the bound of a held band pushes: minus the second difference of R, less the pull there.
   double pushAt(int band, const Trial& trial) const {
     const double* r = trial.spectrum.data() + band;
     const double left = band > 0 ? r[0] - r[-1] : 0.0;
     const double right = band + 1 < m_table.bandCount() ? r[0] - r[1] : 0.0;
-    const double pull = trial.pull[band];
-    return left + right - (m_guide != nullptr ? pull + guideForce(band) : pull);
+    return left + right - (trial.pull[band] + guideForce(band));
   }
   /// Minus the second difference of the guide; zero where there is none.
-  double guideForceAt(int band) const { return m_guide != nullptr ? guideForce(band) : 0.0; }
+  double guideForce(int band) const;
 
   /// F^T dR / dtarget, for F of B x 3.
   Eigen::Matrix3d response(const Eigen::MatrixX3d& functionals) const;
@@ -74,11 +75,14 @@ class ReducedSystem {
   double heldValue(int band) const {
     return m_held == Held::AtBounds && m_states[static_cast<std::size_t>(band)] == BandState::AtOne ? 1.0 : 0.0;
   }
-  double guideForce(int band) const;
   void addRun(int first, int end, Eigen::Matrix3d& schur);
   void fix(const Run& run);
   void invert(const Eigen::Matrix3d& schur);
-  void evaluate(const Eigen::Vector4d& unknowns, Trial& trial) const;
+  /// Spectrum and pull from the unknowns.
+  void evaluate(Trial& trial) const;
+  /// Calls visit(band, what a unit of each multiplier makes there) for every free band.
+  template <typename Visit>
+  void visitFree(const Visit& visit) const;
 
   const BandTable& m_table;
   const BandStates& m_states;

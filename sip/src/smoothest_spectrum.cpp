@@ -39,13 +39,12 @@ std::optional<Outcome> settle(const BoundedProblem& problem, const ActiveSet* st
       }
     }
   }
-  const Eigen::VectorXd relaxed = relax();
-  outcome.trial.spectrum = relaxed;
+  outcome.trial.spectrum = relax();
   states.fill(BandState::Free);
-  if (!force(problem, relaxed, states)) {
+  if (!force(problem, outcome.trial.spectrum, states)) {
     if (!forceAndRelease(problem, states, outcome.trial, outcome.rounds, linearised)) {
       outcome.fellBack = true;
-      outcome.trial.spectrum = relaxed;
+      outcome.trial.spectrum = relax();
       if (!dualActiveSet(problem, states, outcome.trial, outcome.rounds, linearised)) {
         return std::nullopt;
       }
@@ -122,7 +121,6 @@ std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solveB
   solution.reflectance = m_unconstrained * tristimulus;
   const BoundedProblem problem{*m_table, false, tristimulus, nullptr};
   BandStates states{};
-  states.fill(BandState::Free);
   Trial trial;
   const double tolerance = toleranceOf(solution.reflectance);
   for (int held = 0; held < bandCount(); ++held) {
@@ -137,7 +135,8 @@ std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solveB
     if (!system.fullRank()) {
       return std::nullopt;
     }
-    system.solve(tristimulus, true, trial);
+    system.solve(tristimulus, trial);
+    system.refine(tristimulus, trial);
     solution.reflectance = trial.spectrum;
   }
   return std::nullopt;
