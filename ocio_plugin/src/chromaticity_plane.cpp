@@ -29,11 +29,23 @@ constexpr double kMargin = 0.004;
 /// Directions tried for the sides of the parallelogram that becomes the unit square.
 constexpr int kSideDirections = 360;
 
-/// The cone, white-normalised, of all that the input's observer can see by a light.
+/// The cone, white-normalised, of what the input's observer can see by a light.
 sip::FeasibleCone coneUnder(const spectral::DomainSamples& light, const sip::PreparedPipeline& input) {
   const Eigen::Matrix3Xd weights =
       input.white.cwiseInverse().asDiagonal() * sip::bandWeights(light, input.curves, kConeBandCount);
-  return {weights, Eigen::Matrix3d::Identity()};
+  return {sip::litGenerators(weights), Eigen::Matrix3d::Identity()};
+}
+
+/// The least cone round two others.
+sip::FeasibleCone coneRound(const sip::FeasibleCone& a, const sip::FeasibleCone& b) {
+  Eigen::Matrix3Xd rays(3, a.corners().size() + b.corners().size());
+  Eigen::Index column = 0;
+  for (const sip::FeasibleCone* const cone : {&a, &b}) {
+    for (const Eigen::Vector3d& corner : cone->corners()) {
+      rays.col(column++) = corner;
+    }
+  }
+  return {rays, Eigen::Matrix3d::Identity()};
 }
 
 /// Colours all over a cone: blends of white with the points of its border.
@@ -179,8 +191,10 @@ Eigen::Vector3d ChromaticityFrame::colour(const Eigen::Vector3d& coordinates) co
 std::vector<ChromaticityPlane> chromaticityPlanes(const sip::TransformSpec& spec,
                                                   const sip::SpectralTransform& transform) {
   const sip::PreparedPipeline pipeline = sip::prepare(spec.input, spec.training, spec.standardObserver);
-  const std::vector<Eigen::Vector3d> corners = coneUnder(spectral::DomainSamples::Ones(), pipeline).corners();
   const sip::FeasibleCone feasible = coneUnder(pipeline.light, pipeline);
+  // Where this light is strong and an even one is faint, its cone is the wider.
+  const std::vector<Eigen::Vector3d> corners =
+      coneRound(coneUnder(spectral::DomainSamples::Ones(), pipeline), feasible).corners();
   const Eigen::Matrix3d responseFromRgb = transform.responseFromRgb();
   const Eigen::Matrix3d rgbFromResponse = responseFromRgb.inverse();
   const std::vector<Eigen::Vector3d> in = spread(corners);

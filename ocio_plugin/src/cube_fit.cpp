@@ -11,15 +11,17 @@ namespace metamer::ocio {
 namespace {
 
 /// Rounds of weighted least squares.
-constexpr int kRounds = 4;
-/// A sample's weight grows with its squared error up to the 99th percentile, from this part of it, below which what is
-/// small already must not be forgotten. Beyond it falls off again: what is out of reach anyhow is not to spoil the
-/// rest.
-constexpr float kLeastPart = 0.5F;
+constexpr int kRounds = 6;
+/// A round multiplies a sample's weight, of which it keeps a power, by its squared error up to the 99th percentile: the
+/// rounds raise the errors to ever higher powers, toward the least percentile. From this part of it on, below which
+/// what is small already must not be forgotten. Beyond it the weight falls off again: what is out of reach anyhow is
+/// not to spoil the rest.
+constexpr float kKept = 0.75F;
+constexpr float kLeastPart = 0.6F;
 constexpr double kQuantile = 0.99;
 /// Errors beyond this are weighed by what they really are, within a factor, where the quadratic form misjudges them.
 constexpr float kSmall = 0.2F;
-constexpr float kMostBeyond = 3.0F;
+constexpr float kMostBeyond = 2.0F;
 /// Weight of moving unlike the neighbour, and of moving at all, against the mean node's: they decide what samples leave
 /// open.
 constexpr float kStiffness = 1e-3F;
@@ -176,7 +178,7 @@ class Fit {
     return errors;
   }
 
-  /// Weighs the samples by their errors, half way from the last weights, which keeps them from swinging.
+  /// Weighs the samples by their errors, on from the last weights, which keeps them from swinging.
   void weigh() {
     const Errors found = errors();
     std::vector<float> sorted = found.full;
@@ -189,7 +191,8 @@ class Fit {
       const float beyond = found.quadratic[k] > kSmall
                                ? std::clamp(found.full[k] / found.quadratic[k], 1.0F / kMostBeyond, kMostBeyond)
                                : 1.0F;
-      m_weights[k] = std::sqrt(m_weights[k]) * std::min(part, 1.0F / part) * beyond;
+      const float counted = std::min(part, 1.0F / part);
+      m_weights[k] = std::pow(m_weights[k], kKept) * counted * counted * beyond;
       sum += static_cast<double>(m_weights[k]);
     }
     const auto level = static_cast<float>(static_cast<double>(m_samples.size()) / sum);

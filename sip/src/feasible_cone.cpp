@@ -4,14 +4,18 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+
+#include "ray_polygon.h"
 
 namespace metamer::sip {
 
 namespace {
 
-/// Generators this much lighter than the heaviest (ends of the visible range) do not widen the cone: a reflectance
-/// would have to be as many times brighter to use them.
-constexpr double kLightestGenerator = 1e-9;
+/// Generators this much lighter than the heaviest, or than faint ones, are noise.
+constexpr double kDark = 1e-9;
+
+const Eigen::Vector3d kWhite = Eigen::Vector3d::Constant(1.0 / 3.0);
 
 Eigen::Vector2d chromaticityOf(const Eigen::Vector3d& ray) {
   return ray.head<2>() / ray.sum();
@@ -45,14 +49,27 @@ std::vector<Eigen::Vector2d> convexHull(std::vector<Eigen::Vector2d> points) {
 
 }  // namespace
 
+Eigen::Matrix3Xd litGenerators(const Eigen::Matrix3Xd& rays) {
+  const double faint = kFaintGenerator * rays.sum() / static_cast<double>(rays.cols());
+  Eigen::Matrix3Xd lit(3, rays.cols());
+  Eigen::Index count = 0;
+  for (const auto& ray : rays.colwise()) {
+    if (ray.sum() > kDark * faint) {
+      const double heaviness = ray.sum() / faint;
+      const double faintness = 1.0 / (1.0 + heaviness * heaviness * heaviness * heaviness);
+      lit.col(count++) = (1.0 - faintness) * ray / ray.sum() + faintness * kWhite;
+    }
+  }
+  return lit.leftCols(count);
+}
+
 FeasibleCone::FeasibleCone(const Eigen::Matrix3Xd& rays, const Eigen::Matrix3Xd& basis) : m_basis(basis) {
-  const Eigen::Vector3d white = Eigen::Vector3d::Constant(1.0 / 3.0);
   const double heaviest = rays.colwise().sum().maxCoeff();
   std::vector<Eigen::Vector3d> drawnIn;
   for (Eigen::Index i = 0; i < rays.cols(); ++i) {
     const double weight = rays.col(i).sum();
-    if (weight > kLightestGenerator * heaviest) {
-      drawnIn.emplace_back((1.0 - kMargin) * rays.col(i) / weight + kMargin * white);
+    if (weight > kDark * heaviest) {
+      drawnIn.emplace_back((1.0 - kMargin) * rays.col(i) / weight + kMargin * kWhite);
     }
   }
   assert(!drawnIn.empty());
@@ -61,14 +78,9 @@ FeasibleCone::FeasibleCone(const Eigen::Matrix3Xd& rays, const Eigen::Matrix3Xd&
     return;
   }
   if (rank() == 2) {
-    // In the plane: the two outermost directions.
-    const auto angle = [&](const Eigen::Vector3d& ray) {
-      const Eigen::Vector2d inPlane = basis.transpose() * ray;
-      const Eigen::Vector2d whiteInPlane = basis.transpose() * white;
-      return std::atan2(whiteInPlane.x() * inPlane.y() - whiteInPlane.y() * inPlane.x(), inPlane.dot(whiteInPlane));
-    };
-    const auto [low, high] = std::minmax_element(drawnIn.begin(), drawnIn.end(),
-                                                 [&](const auto& a, const auto& b) { return angle(a) < angle(b); });
+    const auto [low, high] = std::minmax_element(drawnIn.begin(), drawnIn.end(), [this](const auto& a, const auto& b) {
+      return angleFromWhite(a) < angleFromWhite(b);
+    });
     for (const auto& ray : {*low, *high}) {
       m_corners.emplace_back((basis * (basis.transpose() * ray)).normalized());
     }
@@ -82,10 +94,42 @@ FeasibleCone::FeasibleCone(const Eigen::Matrix3Xd& rays, const Eigen::Matrix3Xd&
   for (const auto& corner : convexHull(std::move(chromaticities))) {
     m_corners.push_back(Eigen::Vector3d(corner.x(), corner.y(), 1.0 - corner.x() - corner.y()).normalized());
   }
-  for (std::size_t i = 0; i < m_corners.size(); ++i) {
-    Eigen::Vector3d normal = m_corners[i].cross(m_corners[(i + 1) % m_corners.size()]).normalized();
-    m_normals.push_back(normal.dot(white) < 0.0 ? Eigen::Vector3d(-normal) : normal);
+  setNormals();
+}
+
+FeasibleCone FeasibleCone::within(const FeasibleCone& other) const {
+  FeasibleCone shared = *this;
+  if (rank() == 2) {
+    const auto narrower = [this](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      return std::abs(angleFromWhite(a)) < std::abs(angleFromWhite(b)) ? a : b;
+    };
+    for (std::size_t side = 0; side < 2; ++side) {
+      shared.m_corners[side] = narrower(m_corners[side], other.m_corners[side]);
+    }
+  } else if (rank() == 3) {
+    for (const Eigen::Vector3d& normal : other.m_normals) {
+      shared.m_corners = clipRays(shared.m_corners, normal);
+    }
+    for (Eigen::Vector3d& corner : shared.m_corners) {
+      corner.normalize();
+    }
+    shared.setNormals();
   }
+  return shared;
+}
+
+void FeasibleCone::setNormals() {
+  m_normals.clear();
+  for (std::size_t i = 0; i < m_corners.size(); ++i) {
+    const Eigen::Vector3d normal = m_corners[i].cross(m_corners[(i + 1) % m_corners.size()]).normalized();
+    m_normals.emplace_back(normal.dot(kWhite) < 0.0 ? -normal : normal);
+  }
+}
+
+double FeasibleCone::angleFromWhite(const Eigen::Vector3d& ray) const {
+  const Eigen::Vector2d inPlane = m_basis.transpose() * ray;
+  const Eigen::Vector2d white = m_basis.transpose() * kWhite;
+  return std::atan2(white.x() * inPlane.y() - white.y() * inPlane.x(), inPlane.dot(white));
 }
 
 bool FeasibleCone::contains(const Eigen::Vector3d& colour) const {

@@ -10,6 +10,7 @@
 #include "metamer/sip/band_weights.h"
 #include "metamer/sip/feasible_cone.h"
 #include "metamer/spectral/input_error.h"
+#include "ray_polygon.h"
 #include "reference_scenes.h"
 
 namespace metamer::sip {
@@ -81,24 +82,6 @@ double exposureScale(const Eigen::Vector3d& colour) {
   std::frexp(colour.cwiseAbs().maxCoeff(), &exponent);
   // The smallest denormals would need a scale beyond the largest double.
   return std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
-}
-
-/// Clips a polygon in the plane of chromaticity, given by rays, to the half-space normal . ray >= 0.
-std::vector<Eigen::Vector3d> clip(const std::vector<Eigen::Vector3d>& rays, const Eigen::Vector3d& normal) {
-  std::vector<Eigen::Vector3d> clipped;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Eigen::Vector3d& from = rays[i];
-    const Eigen::Vector3d& to = rays[(i + 1) % rays.size()];
-    const double a = normal.dot(from);
-    const double b = normal.dot(to);
-    if (a >= 0.0) {
-      clipped.push_back(from);
-    }
-    if ((a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)) {
-      clipped.push_back((a * to - b * from) / (a - b));
-    }
-  }
-  return clipped;
 }
 
 }  // namespace
@@ -214,7 +197,12 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   rows.topRows(state->basis.cols()) = state->basis.transpose() * weights;
   state->solver.emplace(rows);
   const bool isCamera = spec.input.observer.response == spectral::Observer::Response::Camera;
-  state->cone.emplace(isCamera ? withinRange(weights, input.curves) : weights, state->basis);
+  const auto coneOf = [&](const Eigen::Matrix3Xd& rays) { return FeasibleCone(rays, state->basis); };
+  const auto inRange = [&](const Eigen::Matrix3Xd& all) { return isCamera ? withinRange(all, input.curves) : all; };
+  // What these bands can make, and what it takes no impossible reflectance for: the latter whatever the bands.
+  const Eigen::Matrix3Xd fine =
+      input.white.cwiseInverse().asDiagonal() * bandWeights(input.light, input.curves, kConvergedBandCount);
+  state->cone = coneOf(inRange(weights)).within(coneOf(litGenerators(inRange(fine))));
 
   const Eigen::Matrix3d matrix = state->rgbFromSpectrum * state->onResponse(state->solver->unconstrained());
   const Eigen::Matrix3d ordinaryAdaptation =
@@ -361,7 +349,7 @@ std::vector<Eigen::Vector3d> SpectralTransform::linearConeCorners() const {
   std::vector<Eigen::Vector3d> corners = m_state->cone->corners();
   const Eigen::MatrixX3d& spectrum = m_state->solver->unconstrained();
   for (Eigen::Index b = 0; b < spectrum.rows() && corners.size() >= 3; ++b) {
-    corners = clip(corners, spectrum.row(b).transpose());
+    corners = clipRays(corners, spectrum.row(b).transpose());
   }
   if (corners.size() < 3) {
     return {};

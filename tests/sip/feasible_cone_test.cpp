@@ -124,6 +124,62 @@ TEST(FeasibleConeTest, WhiteIsInsideAndTheLocusOutside) {
   }
 }
 
+TEST(FeasibleConeTest, WithinIsWhatBothHold) {
+  for (const auto& [nameA, a] : cones()) {
+    for (const auto& [nameB, b] : cones()) {
+      if (a.rank() != b.rank()) {
+        continue;
+      }
+      const FeasibleCone both = a.within(b);
+      int inside = 0;
+      for (const Eigen::Vector3d& colour : randomColours(5'000)) {
+        EXPECT_EQ(both.contains(colour), a.contains(colour) && b.contains(colour)) << nameA << " within " << nameB;
+        inside += both.contains(colour) ? 1 : 0;
+        // A flat cone contains by its projection.
+        if (a.rank() == 2) {
+          const Eigen::Vector3d point = both.project(colour).point;
+          EXPECT_LE((a.project(point).point - point).norm(), 1e-12 * colour.norm());
+        }
+      }
+      EXPECT_EQ(inside > 0, a.rank() == 3) << nameA << " within " << nameB;
+    }
+  }
+}
+
+TEST(FeasibleConeTest, FlatConesShareTheNarrowerSide) {
+  Eigen::Matrix<double, 3, 2> plane;
+  plane.col(0) = Eigen::Vector3d(1, 1, 1).normalized();
+  plane.col(1) = Eigen::Vector3d(1, -1, 0).normalized();
+  const auto wedge = [&](double low, double high) {
+    Eigen::Matrix<double, 3, 2> rays;
+    rays.col(0) = plane * Eigen::Vector2d(1, low);
+    rays.col(1) = plane * Eigen::Vector2d(1, high);
+    return FeasibleCone(rays, plane);
+  };
+  const FeasibleCone both = wedge(-0.5, 0.2).within(wedge(-0.1, 0.4));
+  const FeasibleCone expected = wedge(-0.1, 0.2);
+  for (std::size_t side = 0; side < 2; ++side) {
+    EXPECT_LE((both.corners()[side] - expected.corners()[side]).norm(), 1e-12) << side;
+  }
+}
+
+TEST(FeasibleConeTest, FaintGeneratorsDoNotReachFar) {
+  // Ninety-eight of white and one red, ever fainter against the average: all the way out, half, not at all.
+  const auto reach = [](double heaviness) {
+    Eigen::Matrix3Xd rays = Eigen::Matrix3Xd::Ones(3, 99);
+    rays.col(98) =
+        Eigen::Vector3d(1, 0, 0) * (heaviness * kFaintGenerator * 98 * 3 / (99 - heaviness * kFaintGenerator));
+    const Eigen::Matrix3Xd lit = litGenerators(rays);
+    EXPECT_EQ(lit.cols(), 99);
+    return 1.0 - 3.0 * lit.col(98)[1];
+  };
+  EXPECT_NEAR(reach(100.0), 1.0, 1e-7);
+  EXPECT_NEAR(reach(2.0), 16.0 / 17.0, 1e-12);
+  EXPECT_NEAR(reach(1.0), 0.5, 1e-12);
+  EXPECT_NEAR(reach(0.01), 0.0, 1e-7);
+  EXPECT_EQ(litGenerators(Eigen::Matrix3d(Eigen::Vector3d(1, 1, 0).asDiagonal())).cols(), 2);
+}
+
 TEST(FeasibleConeTest, EveryCornerHasASpectrum) {
   for (const char* const light : {"D65", "HP1", "FL11", "LED-RGB1"}) {
     for (const int bands : {41, 81, kConvergedBandCount}) {

@@ -11,7 +11,7 @@
 
 namespace metamer {
 
-/// A folder of its own for each test, removed after it.
+/// A folder of its own, removed after it.
 class TemporaryFolder {
  public:
   TemporaryFolder()
@@ -33,6 +33,12 @@ class TemporaryFolder {
  private:
   std::filesystem::path m_path;
 };
+
+/// A file in a folder of this process, removed at its end: programs that run at the same time do not meet in it.
+inline std::filesystem::path scratchFile(const std::string& name) {
+  static const TemporaryFolder folder;
+  return folder / name;
+}
 
 inline std::string contentsOf(const std::filesystem::path& file) {
   std::ostringstream text;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "spectral/temporary_folder.h"
 #include "spectral_ref/scene_fixture.h"
 
 namespace metamer::spectral_ref {
@@ -15,9 +16,7 @@ using spectral::errorOf;
 
 class CheckpointTest : public testing::Test {
  protected:
-  std::filesystem::path file(const std::string& name) const {
-    return std::filesystem::path(testing::TempDir()) / ("checkpoint_test_" + name);
-  }
+  std::filesystem::path file(const std::string& name) const { return scratchFile(name); }
 };
 
 /// A state in pieces of odd sizes.

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "spectral/temporary_folder.h"
 #include "spectral_ref/scene_fixture.h"
 
 namespace metamer::spectral_ref {
@@ -116,7 +117,7 @@ TEST(HardSceneTest, ALightSeenOnlyThroughDispersiveGlass) {
 }
 
 TEST(HardSceneTest, DegenerateTrianglesAndPlacesThatAreNoNumberAreLeftOut) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "hard_scenes_test.obj";
+  const std::filesystem::path file = scratchFile("hard_scenes.obj");
   const std::string good = "v -2 -2 0\nv 2 -2 0\nv 2 2 0\nv -2 2 0\nf 1 2 3\nf 1 3 4\n";
   const auto scene = [&](const std::string& text) {
     std::ofstream(file) << text;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "metamer/spectral_ref/exr_film.h"
+#include "spectral/temporary_folder.h"
 #include "spectral_ref/scene_fixture.h"
 
 namespace metamer::spectral_ref {
@@ -26,7 +27,7 @@ TEST(MeasureTest, MeansAndIntervalsOfTheFile) {
       "film: {width: 12, height: 8, bins: {from: 400, to: 700, step: 100}}\n"
       "lights: [{environment: {emission: D65}}]\n");
   const Film film = rendered(scene, 32);
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "measure_test.exr";
+  const std::filesystem::path file = scratchFile("measure.exr");
   writeExr(film, {}, file, false, false);
   const Measurement measurement = measure(file, {{"part", 2, 1, 5, 4}});
   const AreaMean expected = luminanceOver(film, 2, 1, 5, 4);
@@ -46,7 +47,7 @@ TEST(MeasureTest, MeansAndIntervalsOfTheFile) {
 TEST(MeasureTest, ExactSumsComeBackFromTheFile) {
   const Scene scene = sceneOf(chartScene(4, "A", 20, 13));
   const Film film = rendered(scene, 8);
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "state_test.exr";
+  const std::filesystem::path file = scratchFile("state.exr");
   writeExr(film, {{"seed", "0"}}, file, true, false);
   const auto [again, notes] = readExrState(file);
   EXPECT_EQ(again.sums(), film.sums());

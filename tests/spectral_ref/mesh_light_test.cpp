@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "spectral/temporary_folder.h"
 #include "spectral_ref/scene_fixture.h"
 
 namespace metamer::spectral_ref {
@@ -32,7 +33,7 @@ double polygonForm(const Vector3& point, const Vector3& normal, const Corners& c
 /// Faces by numbers of corners; each counter-clockwise seen from the side that shines or is painted.
 std::filesystem::path plyFile(const std::string& name, const Corners& corners,
                               const std::vector<std::vector<int>>& faces) {
-  std::filesystem::path path = std::filesystem::path(testing::TempDir()) / ("mesh_light_test_" + name + ".ply");
+  std::filesystem::path path = scratchFile(name + ".ply");
   std::ofstream file(path);
   file.precision(9);
   file << "ply\nformat ascii 1.0\nelement vertex " << corners.size()
@@ -126,7 +127,7 @@ class MeshLightTest : public testing::TestWithParam<Restir> {
     for (const Area& area : kAreas) {
       const double expected = 0.5 / M_PI * 3.0 * meanForm(area, lamp);
       const double mean = luminanceOver(film, area.x, area.y, area.width, area.height).mean;
-      // Over seeds these means spread by 3e-4 at most.
+      // Over three seeds the farthest of these means was 1.3e-3 away, under a mesh of lamps.
       EXPECT_NEAR(mean / expected, 1.0, 1.5e-3) << what;
       std::printf("%s, restir %d: %.5f of the closed form\n", what.c_str(), static_cast<int>(GetParam()),
                   mean / expected);

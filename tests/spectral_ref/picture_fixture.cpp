@@ -4,11 +4,13 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include "spectral/temporary_folder.h"
+
 namespace metamer::spectral_ref {
 
 std::filesystem::path exrFile(const std::string& name, int width, int height, int channels,
                               const std::vector<float>& values) {
-  std::filesystem::path path = std::filesystem::path(testing::TempDir()) / (name + ".exr");
+  std::filesystem::path path = scratchFile(name + ".exr");
   const auto output = OIIO::ImageOutput::create(path.string());
   const OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::FLOAT);
   const bool isWritten = output && output->open(path.string(), spec) &&
