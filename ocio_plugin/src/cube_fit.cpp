@@ -16,7 +16,7 @@ constexpr int kRounds = 6;
 /// rounds raise the errors to ever higher powers, toward the least percentile. From this part of it on, below which
 /// what is small already must not be forgotten. Beyond it the weight falls off again: what is out of reach anyhow is
 /// not to spoil the rest.
-constexpr float kKept = 0.75F;
+constexpr float kKept = 0.85F;
 constexpr float kLeastPart = 0.6F;
 constexpr double kQuantile = 0.99;
 /// Errors beyond this are weighed by what they really are, within a factor, where the quadratic form misjudges them.

@@ -18,8 +18,9 @@ constexpr double kLuminance = 0.18;
 /// Chromaticities, and exposures of each a stop.
 constexpr int kChromaticityCount = 12000;
 constexpr int kExposuresPerStop = 1;
-/// Stops below the range that samples reach: its darkest end, the hardest, else lies at the border of what is weighed.
-constexpr double kBelow = 0.3;
+/// Stops beyond the range that samples reach: its ends, of which the dark one is the hardest, else lie at the border of
+/// what is weighed.
+constexpr double kBeyond = 0.3;
 /// Chromaticities a task.
 constexpr int kBlock = 250;
 /// Step of the signal to see its slope by, and of light to see CIEDE2000's.
@@ -62,9 +63,9 @@ class Sampler {
         m_rgbFromXyz(transform.space().rgbFromXyz()),
         m_white(transform.whiteXyz()),
         m_size(size),
-        m_lowest(lowestStop - kBelow),
-        m_count(std::max(1, static_cast<int>(std::lround((highestStop - m_lowest) * kExposuresPerStop)))),
-        m_step((highestStop - m_lowest) / m_count) {}
+        m_lowest(lowestStop - kBeyond),
+        m_count(std::max(1, static_cast<int>(std::lround((highestStop + kBeyond - m_lowest) * kExposuresPerStop)))),
+        m_step((highestStop + kBeyond - m_lowest) / m_count) {}
 
   void run(int first, int last, std::vector<CubeSample>& samples) const {
     std::vector<Direction> directions;

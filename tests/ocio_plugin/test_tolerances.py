@@ -16,12 +16,13 @@ from pathlib import Path
 import colour
 import numpy as np
 import quadprog
+from scipy.stats import qmc
 
 from ocio_releases import BIN, newest
 
 LONG = bool(os.environ.get("METAMER_LONG"))
 BANDS = 201
-COUNT = 700 if LONG else 400
+COUNT = 1000 if LONG else 400
 # Input, output, adaptation, file, stops. Tables of a log signal are asked for the exposures they are good at.
 WIDE = (-10, 10)
 RECIPES = [
@@ -90,11 +91,15 @@ class Truth:
 
 
 def probes(truth, seed):
-    """Colours spread over AP1 at Y = 0.18, and where they go."""
-    random = np.random.default_rng(seed)
+    """Colours spread over AP1 at Y = 0.18, and where they go.
+
+    Evenly, but not where metamer's own probes lie: by chance, a percentile that depends on how many of a thousand fall
+    into one corner of the gamut would itself be uncertain by a third.
+    """
+    sequence = qmc.Halton(2, seed=seed)
     light, expected = [], []
     while len(light) < COUNT:
-        u, v = random.random(2)
+        u, v = sequence.random()[0]
         u, v = (1 - u, 1 - v) if u + v > 1 else (u, v)
         xy = AP1[0] + u * (AP1[1] - AP1[0]) + v * (AP1[2] - AP1[0])
         rgb = np.linalg.inv(XYZ_FROM_RGB) @ (0.18 * colour.xy_to_XYZ(xy))
