@@ -189,8 +189,10 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
 
   state->spectrumToRgb = state->rgbFromSpectrum.transpose();
 
-  const Eigen::Matrix3Xd weights =
-      input.white.cwiseInverse().asDiagonal() * bandWeights(input.light, input.curves, bandCount);
+  const auto weightsOf = [&](int count) -> Eigen::Matrix3Xd {
+    return input.white.cwiseInverse().asDiagonal() * bandWeights(input.light, input.curves, count);
+  };
+  const Eigen::Matrix3Xd weights = weightsOf(bandCount);
   state->basis = signalBasis(weights, state->diagnostics.conditionNumber);
   state->diagnostics.rank = static_cast<int>(state->basis.cols());
   Eigen::Matrix3Xd rows = Eigen::Matrix3Xd::Zero(3, bandCount);
@@ -200,9 +202,7 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   const auto coneOf = [&](const Eigen::Matrix3Xd& rays) { return FeasibleCone(rays, state->basis); };
   const auto inRange = [&](const Eigen::Matrix3Xd& all) { return isCamera ? withinRange(all, input.curves) : all; };
   // What these bands can make, and what it takes no impossible reflectance for: the latter whatever the bands.
-  const Eigen::Matrix3Xd fine =
-      input.white.cwiseInverse().asDiagonal() * bandWeights(input.light, input.curves, kConvergedBandCount);
-  state->cone = coneOf(inRange(weights)).within(coneOf(litGenerators(inRange(fine))));
+  state->cone = coneOf(inRange(weights)).within(coneOf(litGenerators(inRange(weightsOf(kConvergedBandCount)))));
 
   const Eigen::Matrix3d matrix = state->rgbFromSpectrum * state->onResponse(state->solver->unconstrained());
   const Eigen::Matrix3d ordinaryAdaptation =

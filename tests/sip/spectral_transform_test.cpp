@@ -241,26 +241,30 @@ struct Gain {
 Gain largestGain(const SpectralTransform& transform) {
   Gain gain;
   for (const Vector3d& colour : colours(3000)) {
+    const Vector3d result = transform.apply(colour);
     const auto piece = transform.linearise(colour);
-    gain.whole = std::max(gain.whole, transform.apply(colour).norm() / colour.norm());
+    EXPECT_TRUE(result.allFinite() && piece.matrix.allFinite()) << colour.transpose();
+    gain.whole = std::max(gain.whole, result.norm() / colour.norm());
     gain.local = std::max(gain.local, Eigen::JacobiSVD<Matrix3d>(piece.matrix).singularValues()[0]);
   }
   return gain;
 }
 
 TEST(SpectralTransformTest, GainIsBounded) {
-  // Sodium, lines on a faint ground, narrow emitters with darkness between them, and everyday light. Not at 16 bands,
-  // wider than such emitters: there some bands are faint themselves.
+  // Sodium, lines on a faint ground, narrow emitters with darkness between them, and everyday light.
   for (const char* const light : {"LPS", "HPS", "HP1", "Mercury", "FL11", "3-LED-1 (457/540/605)",
                                   "4-LED-1 (461/526/576/624)", "LED-RGB1", "LED-B2", "A"}) {
-    for (const int bands : {41, 81, kDefaultBandCount, kConvergedBandCount}) {
+    for (const int bands : {16, 41, 81, kDefaultBandCount, kConvergedBandCount}) {
       const SpectralTransform transform(specOf(light, "D65"), bands);
       const auto diagnostics = transform.diagnostics();
       const Gain gain = largestGain(transform);
       std::printf("[ gain ] %s -> D65, %d bands: rank %d, condition %.3g, matrix %.3g, whole %.3g, local %.3g\n", light,
                   bands, diagnostics.rank, diagnostics.conditionNumber, diagnostics.matrixGain, gain.whole, gain.local);
-      // The faintest band that the cone reaches into takes a reflectance this much brighter than white.
-      EXPECT_LT(gain.whole, diagnostics.matrixGain / kFaintGenerator) << light << " " << bands;
+      // The faintest band that the cone reaches into takes a reflectance this much brighter than white. Sixteen bands
+      // are wider than an emitter: some of them are fainter themselves.
+      if (bands > 16) {
+        EXPECT_LT(gain.whole, diagnostics.matrixGain / kFaintGenerator) << light << " " << bands;
+      }
       // The steepest place is the strip along the locus that the cone is drawn in by.
       EXPECT_LT(gain.local, gain.whole / FeasibleCone::kMargin) << light << " " << bands;
       EXPECT_EQ(diagnostics.rank < 3, std::string(light) == "LPS") << light << " " << bands;
