@@ -29,7 +29,6 @@ SECTIONS = {
     "validation": ("The loop closed", "accuracy"),
     "stability": ("Numerical stability", "accuracy"),
     "compilers": ("Whatever compiled it, and however many threads", "accuracy"),
-    "compilers": ("Whatever compiled it, and however many threads", "accuracy"),
     "hard_cases": ("Hard cases", "accuracy"),
     "growth": ("How cost grows", "performance"),
     "ofx": ("The OFX plug-in beside OpenColorIO", "performance"),

@@ -111,6 +111,8 @@ def _mitsuba(place):
 
 TABLE_COST = "where memory is slow, a frame takes its time whatever is computed"
 STEEP = "the transform is steep and kinked for dark saturated colours, and nodes a lattice apart cannot follow every kink"
+TOE = ("to A, at -7 stops, six tetrahedra of the 33³ hold the whole gamut; gradient descent on the percentile itself found no "
+       "better nodes, but for those fitted to whole stops alone, whose percentile at half stops is 2.7")
 BUILD = "exact colours are computed until every patch holds its tolerance: tens of thousands of solves"
 NOISE = "next-event estimation is already near what is left of the noise at this time and size"
 
@@ -129,7 +131,7 @@ TARGETS = (
     Target("cube", "33³ sampled, s", "<=", 0.2, _cube_seconds("sampled", 33), "the table takes a tenth of a second; loading libraries, the certificate and the map the rest"),
     Target("cube", "65³ written (sampled), s", "<=", 1, _cube_seconds("sampled", 65)),
     Target("cube", "33³ fitted over sampled, p99, worst lights", "<=", 1 / 3, _cube_ratio(33), STEEP),
-    Target("cube", "33³ fitted over 65³ sampled, p99, worst lights", "<=", 1, _cube_ratio(65), STEEP),
+    Target("cube", "33³ fitted over 65³ sampled, p99, worst lights", "<=", 1, _cube_ratio(65), TOE),
     Target("ofx", "UHD frames, speed over OCIO's log + 33³, least", ">=", 2.5, _ofx("OCIO log + 33^3"), TABLE_COST),
     Target("ofx", "UHD frames, speed over OCIO's 3x3 matrix, least", ">=", 0.4, _ofx("OCIO 3x3 matrix")),
     Target("ofx", "parameter change to first HD frame, ms", "<=", 150, lambda f: _largest(r["milliseconds"] for r in f["change"]),

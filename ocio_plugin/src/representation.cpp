@@ -1,16 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/ocio/representation.h"
 
+#include <array>
 #include <cassert>
+#include <cmath>
 #include <vector>
 
 #include "cube_fit.h"
 #include "cube_samples.h"
 #include "matrix_operator.h"
 #include "metamer/ocio/exposure_invariant_chain.h"
+#include "metamer/ocio/pixel_processor.h"
 #include "sampled_cube.h"
 
 namespace metamer::ocio {
+namespace {
+
+/// Sets the neutral node next below black, which is no light, so that black itself comes out exactly: it lies between
+/// two nodes, and where its neighbours' results lie beyond a logarithm's toe the two do not meet there of themselves.
+void keepBlack(std::vector<Eigen::Vector3f>& nodes, int size, const Signal& signal) {
+  std::array<float, 4> pixel = {0.0F, 0.0F, 0.0F, 1.0F};
+  PixelProcessor(signal.fromEngine).apply(pixel);
+  const Eigen::Vector3f black(pixel[0], pixel[1], pixel[2]);
+  const float at = black[0] * static_cast<float>(size - 1);
+  const int below = static_cast<int>(std::floor(at));
+  const float within = at - static_cast<float>(below);
+  if (below >= 0 && below + 1 < size) {
+    const auto side = static_cast<std::size_t>(size);
+    const std::size_t step = 1 + side + side * side;
+    Eigen::Vector3f* const node = nodes.data() + step * static_cast<std::size_t>(below);
+    node[0] = (black - within * node[step]) / (1.0F - within);
+  }
+}
+
+}  // namespace
 
 std::string nameOf(Representation representation) {
   switch (representation) {
@@ -32,6 +55,7 @@ OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const
   assert(size >= kSmallestTable && size <= kLargestTable);
   std::vector<Eigen::Vector3f> nodes = sampledCube(transform, signal, size);
   if (options.fitted) {
+    keepBlack(nodes, size, signal);
     // Half a stop more at either end: what is judged at a stop lies in the middle of what is fitted.
     fitCube(nodes, size, cubeSamples(transform, signal, size, options.lowestStop - 0.5, options.highestStop + 0.5),
             CubeJudge(transform, signal), options.belowZero);

@@ -52,9 +52,9 @@ struct LogCubeOptions {
 /// The table of a LogCube: signal in, signal out, over 0 ... 1 on each axis, to be looked up by tetrahedra.
 ///
 /// A fitted table's nodes are no values of the transform: what lies between them is as near to it as their number
-/// allows (docs/representations.md). Its neutral nodes are exact. A sampled table has the transform's own values,
-/// however far below 0 or above 1 they lie; a fitted one lies between the lowest and the highest that real colours
-/// become.
+/// allows (docs/representations.md). Its neutral nodes are exact, but for the one next below black, which keeps black
+/// black. A sampled table has the transform's own values, however far below 0 or above 1 they lie; a fitted one lies
+/// between the lowest and the highest that real colours become.
 OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const Signal& signal,
                                   const LogCubeOptions& options = {});
 
