@@ -19,9 +19,9 @@ constexpr int kRounds = 6;
 constexpr float kKept = 0.85F;
 constexpr float kLeastPart = 0.6F;
 constexpr double kQuantile = 0.99;
-/// Errors beyond this are weighed by what they really are, within a factor, where the quadratic form misjudges them.
+/// Errors beyond this are weighed by what they really are: where a signal crosses between a logarithm and its toe the
+/// quadratic form misjudges them thirtyfold, and neighbours would be bent to mend what is no error.
 constexpr float kSmall = 0.2F;
-constexpr float kMostBeyond = 2.0F;
 /// Weight of moving unlike the neighbour, and of moving at all, against the mean node's: they decide what samples leave
 /// open.
 constexpr float kStiffness = 1e-3F;
@@ -188,9 +188,7 @@ class Fit {
     double sum = 0.0;
     for (std::size_t k = 0; k < m_samples.size(); ++k) {
       const float part = std::max(found.full[k] / reference, kLeastPart);
-      const float beyond = found.quadratic[k] > kSmall
-                               ? std::clamp(found.full[k] / found.quadratic[k], 1.0F / kMostBeyond, kMostBeyond)
-                               : 1.0F;
+      const float beyond = found.quadratic[k] > kSmall ? found.full[k] / found.quadratic[k] : 1.0F;
       const float counted = std::min(part, 1.0F / part);
       m_weights[k] = std::pow(m_weights[k], kKept) * counted * counted * beyond;
       sum += static_cast<double>(m_weights[k]);

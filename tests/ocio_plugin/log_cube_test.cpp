@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <vector>
 
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/representation.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/sip/error_protocol.h"
+#include "metamer/spectral/colorimetry.h"
 #include "sip/sip_fixture.h"
 
 namespace metamer::ocio {
@@ -178,6 +180,37 @@ TEST(LogCubeGamutTest, WhatLeavesTheGamutIsKept) {
     return report.p99;
   };
   EXPECT_LE(p99(true), 0.5 * p99(false));
+}
+
+// Sodium to daylight, seen by an eye that stays behind: next to bright greys green leaves the gamut, so that signals
+// fall from the logarithm far into its toe. What a square takes for large errors there must not bend the greys'
+// neighbours.
+TEST(LogCubeBrightTest, ColoursNearGreyAreAsGoodAsSampled) {
+  const sip::SpectralTransform transform(sip::specOf("HP1", "D65"), kBandCount);
+  const Eigen::Matrix3d xyzFromRgb = transform.space().xyzFromRgb();
+  std::vector<Eigen::Vector3d> colours;
+  for (int k = 0; k < 125; ++k) {
+    const Eigen::Vector3d stops(0.25 * (k % 5 - 2), 0.25 * (k / 5 % 5 - 2), 0.25 * (k / 25 - 2));
+    colours.emplace_back(0.18 * stops.unaryExpr([](double stop) { return std::exp2(stop); }));
+  }
+  const auto worst = [&](bool fitted) {
+    const PixelProcessor processor = throughLight(logCube(transform, signal(), {.size = 33, .fitted = fitted}));
+    double largest = 0.0;
+    for (const double exposure : {16.0, 32.0, 64.0, 128.0}) {
+      for (const Eigen::Vector3d& colour : colours) {
+        const Eigen::Vector3f in = (exposure * colour).cast<float>();
+        std::array<float, 4> pixel = {in[0], in[1], in[2], 1.0F};
+        processor.apply(pixel);
+        const Eigen::Vector3d out = Eigen::Map<const Eigen::Vector3f>(pixel.data()).cast<double>() / exposure;
+        largest = std::max(
+            largest, spectral::deltaE2000(spectral::lab(xyzFromRgb * transform.apply(colour), transform.whiteXyz()),
+                                          spectral::lab(xyzFromRgb * out, transform.whiteXyz())));
+      }
+    }
+    std::printf("HP1 -> D65, near bright greys, %s: max %.2f\n", fitted ? "fitted" : "sampled", largest);
+    return largest;
+  };
+  EXPECT_LE(worst(true), 1.1 * worst(false));
 }
 
 TEST_F(LogCubeTest, IsTheSameEveryTime) {
