@@ -17,7 +17,7 @@ CASES = [("FL11", "FL11", "", "≥ 2"), ("HP1", "HP1", "", "≥ 2"), ("A through
 SAMPLES = (16, 64, 256)
 TRUTH_SAMPLES = 2048
 LANES = (1, 4, 8, 16)
-PATCH, PATCH_PIXEL = "red", (41, 40)
+PATCH, PATCH_PIXEL = "red", (82, 80)
 
 
 def guiding(runs):
@@ -26,7 +26,7 @@ def guiding(runs):
         scene = scenes.chart(lamp, extra=extra)
         truth = runs.render(scene, TRUTH_SAMPLES, "--guiding", "on", seed=777)[0]
         for samples in SAMPLES:
-            costs = runs.costs(scene, truth, samples, VARIANTS, seeds=7 if samples < 256 else 5)
+            costs = runs.costs(scene, truth, samples, VARIANTS, seeds=9 if samples < 256 else 5)
             uniform, guided = costs["uniform"], costs["guided"]
             rows.append({"light": label, "wanted": wanted, "samples": samples, **costs,
                          "seconds_ratio": guided["seconds"] / uniform["seconds"],
