@@ -189,9 +189,12 @@ TEST(LogCubeBrightTest, ColoursNearGreyAreAsGoodAsSampled) {
   const sip::SpectralTransform transform(sip::specOf("HP1", "D65"), kBandCount);
   const Eigen::Matrix3d xyzFromRgb = transform.space().xyzFromRgb();
   std::vector<Eigen::Vector3d> colours;
-  for (int k = 0; k < 125; ++k) {
-    const Eigen::Vector3d stops(0.25 * (k % 5 - 2), 0.25 * (k / 5 % 5 - 2), 0.25 * (k / 25 - 2));
-    colours.emplace_back(0.18 * stops.unaryExpr([](double stop) { return std::exp2(stop); }));
+  for (const double red : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+    for (const double green : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+      for (const double blue : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
+        colours.emplace_back(0.18 * std::exp2(red), 0.18 * std::exp2(green), 0.18 * std::exp2(blue));
+      }
+    }
   }
   const auto worst = [&](bool fitted) {
     const PixelProcessor processor = throughLight(logCube(transform, signal(), {.size = 33, .fitted = fitted}));
