@@ -44,7 +44,7 @@ Eigen::Vector3d pixelOf(const Picture& picture, int x, int y) {
 Eigen::Vector3d meanOf(const Picture& picture, const sip::ChartGrid& grid, int column, int row,
                        std::optional<double> saturation) {
   const auto& spec = picture.pixels().spec();
-  const Eigen::Vector3d missing = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d missing = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::AlignedBox2d bounds;
   for (const Eigen::Vector2d& corner : grid.sampledSquare(column, row)) {
     bounds.extend(corner);
@@ -184,7 +184,7 @@ Eigen::Vector3d readPrimary(const sip::StagePrimary& primary) {
       sum += pixelOf(picture, spec.x + x, spec.y + y);
     }
   }
-  const Eigen::Vector3d mean = sum / (static_cast<double>(right - left) * (bottom - top));
+  Eigen::Vector3d mean = sum / (static_cast<double>(right - left) * (bottom - top));
   if (!mean.allFinite()) {
     throw InputError(primary.file.string(), "box", "", "holds pixels that are not finite");
   }

@@ -102,7 +102,7 @@ void decodeSrgb(std::span<float> rgba) {
   }
 }
 
-void writePixels(const OIIO::ImageBuf& pixels, const std::filesystem::path& file, OIIO::TypeDesc type,
+void writePixels(const OIIO::ImageBuf& pixels, const std::filesystem::path& file, const OIIO::TypeDesc& type,
                  const std::string& field, const std::string& format) {
   spectral::PendingFile pending(file);
   if (!pixels.write(pending.path().string(), type, format)) {

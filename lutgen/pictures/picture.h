@@ -52,7 +52,7 @@ class Picture {
 /// Writes pixels whole or not at all. @param field  what messages call the picture
 /// @param format  of OpenImageIO; by the extension where empty
 /// @throws spectral::InputError
-void writePixels(const OIIO::ImageBuf& pixels, const std::filesystem::path& file, OIIO::TypeDesc type,
+void writePixels(const OIIO::ImageBuf& pixels, const std::filesystem::path& file, const OIIO::TypeDesc& type,
                  const std::string& field, const std::string& format = {});
 
 /// The sRGB curve (IEC 61966-2-1) undone on the colours of RGBA pixels, in place.
