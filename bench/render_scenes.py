@@ -113,17 +113,14 @@ class Runs:
         picture = np.stack([channels[name].pixels.astype(float) for name in ("R", "G", "B")])
         return picture, usage.ru_utime, usage.ru_maxrss / 1024
 
-    def start(self, scene):
-        """Seconds to start the program and read the scene."""
-        return self.render(scene, 1)[1]
-
     def costs(self, scene, truth, samples, variants, seeds=3):
-        """Of each variant, {name: options}: MSE of X, Y and Z, mean over seeds, and the median seconds of a run beyond the
-        start. Variants take turns, and each turn has a start of its own: what a busy machine adds falls on both."""
+        """Of each variant, {name: options}: MSE of X, Y and Z, mean over seeds, and the median seconds of a run beyond a
+        start of the program, which reads the scene. Variants take turns, and each turn has a start of its own: what a
+        busy machine adds falls on both."""
         errors = {name: [] for name in variants}
         seconds = {name: [] for name in variants}
         for seed in range(1, seeds + 1):
-            start = self.start(scene)
+            start = self.render(scene, 1)[1]
             for name, options in variants.items():
                 picture, spent, _ = self.render(scene, samples, *options, seed=seed)
                 errors[name].append(((picture - truth) ** 2).mean(axis=(1, 2)))

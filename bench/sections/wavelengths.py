@@ -17,7 +17,8 @@ CASES = [("FL11", "FL11", "", "≥ 2"), ("HP1", "HP1", "", "≥ 2"), ("A through
 SAMPLES = (16, 64, 256)
 TRUTH_SAMPLES = 2048
 LANES = (1, 4, 8, 16)
-PATCH, PATCH_PIXEL = "red", (82, 80)
+# Within the patch, of the picture's width and height.
+PATCH, PATCH_PLACE = "red", (0.43, 0.63)
 
 
 def guiding(runs):
@@ -48,7 +49,7 @@ def histogram(runs):
     """The density that makes the estimate of a patch free of noise, beside what a pixel of it has learnt (fig. 4.4)."""
     dump = runs.folder / "guide.json"
     runs.render(scenes.chart("FL11"), 1, "--guiding", "on", "--guide-dump", str(dump),
-                "--guide-pixel", ",".join(map(str, PATCH_PIXEL)))
+                "--guide-pixel", f"{int(PATCH_PLACE[0] * scenes.WIDTH)},{int(PATCH_PLACE[1] * scenes.HEIGHT)}")
     learnt = json.loads(dump.read_text())["pixels"][0]
     x, y, z = (column("observers/cie_1931_2.csv", name) for name in "XYZ")
     light = column("illuminants/cie_fl.csv", "FL11") * column("reflectances/colorchecker.csv", PATCH)

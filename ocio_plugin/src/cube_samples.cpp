@@ -18,9 +18,9 @@ constexpr double kLuminance = 0.18;
 /// Chromaticities, and exposures of each a stop.
 constexpr int kChromaticityCount = 12000;
 constexpr int kExposuresPerStop = 1;
-/// Stops beyond the range that samples reach: its ends, of which the dark one is the hardest, else lie at the border of
-/// what is weighed.
-constexpr double kBeyond = 0.3;
+/// Stops beyond the range that samples reach. Half a stop, so that what is judged at a stop lies in the middle of what
+/// is fitted, and some more: the ends, of which the dark one is the hardest, else lie at the border of what is weighed.
+constexpr double kBeyond = 0.8;
 /// Chromaticities a task.
 constexpr int kBlock = 250;
 /// Step of the signal to see its slope by, and of light to see CIEDE2000's.

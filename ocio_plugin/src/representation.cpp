@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <vector>
 
 #include "cube_fit.h"
+#include "cube_lattice.h"
 #include "cube_samples.h"
 #include "matrix_operator.h"
 #include "metamer/ocio/exposure_invariant_chain.h"
@@ -22,15 +22,12 @@ void keepBlack(std::vector<Eigen::Vector3f>& nodes, int size, const Signal& sign
   std::array<float, 4> pixel = {0.0F, 0.0F, 0.0F, 1.0F};
   PixelProcessor(signal.fromEngine).apply(pixel);
   const Eigen::Vector3f black(pixel[0], pixel[1], pixel[2]);
-  const float at = black[0] * static_cast<float>(size - 1);
-  const int below = static_cast<int>(std::floor(at));
-  const float within = at - static_cast<float>(below);
-  if (below >= 0 && below + 1 < size) {
-    const auto side = static_cast<std::size_t>(size);
-    const std::size_t step = 1 + side + side * side;
-    Eigen::Vector3f* const node = nodes.data() + step * static_cast<std::size_t>(below);
-    node[0] = (black - within * node[step]) / (1.0F - within);
+  if (black.minCoeff() < 0.0F || black.maxCoeff() >= 1.0F) {
+    return;  // outside the table
   }
+  const CubeStencil stencil = cubeStencil(black, size);
+  Eigen::Vector3f* const below = nodes.data() + stencil.node;
+  *below = (black - stencil.weight[3] * below[cornerStep(7, size)]) / stencil.weight[0];
 }
 
 }  // namespace
@@ -56,8 +53,7 @@ OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const
   std::vector<Eigen::Vector3f> nodes = sampledCube(transform, signal, size);
   if (options.fitted) {
     keepBlack(nodes, size, signal);
-    // Half a stop more at either end: what is judged at a stop lies in the middle of what is fitted.
-    fitCube(nodes, size, cubeSamples(transform, signal, size, options.lowestStop - 0.5, options.highestStop + 0.5),
+    fitCube(nodes, size, cubeSamples(transform, signal, size, options.lowestStop, options.highestStop),
             CubeJudge(transform, signal), options.belowZero);
   }
   auto table = OCIO::Lut3DTransform::Create(static_cast<unsigned long>(size));

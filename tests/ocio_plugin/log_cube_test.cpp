@@ -187,12 +187,19 @@ TEST(LogCubeGamutTest, WhatLeavesTheGamutIsKept) {
 // neighbours.
 TEST(LogCubeBrightTest, ColoursNearGreyAreAsGoodAsSampled) {
   const sip::SpectralTransform transform(sip::specOf("HP1", "D65"), kBandCount);
-  const Eigen::Matrix3d xyzFromRgb = transform.space().xyzFromRgb();
-  std::vector<Eigen::Vector3d> colours;
+  const auto labOf = [&](const Eigen::Vector3d& rgb) {
+    return spectral::lab(transform.space().xyzFromRgb() * rgb, transform.whiteXyz());
+  };
+  struct Colour {
+    Eigen::Vector3d rgb;
+    Eigen::Vector3d wanted;  ///< lab
+  };
+  std::vector<Colour> colours;
   for (const double red : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
     for (const double green : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
       for (const double blue : {-0.5, -0.25, 0.0, 0.25, 0.5}) {
-        colours.emplace_back(0.18 * std::exp2(red), 0.18 * std::exp2(green), 0.18 * std::exp2(blue));
+        const Eigen::Vector3d rgb(0.18 * std::exp2(red), 0.18 * std::exp2(green), 0.18 * std::exp2(blue));
+        colours.push_back({rgb, labOf(transform.apply(rgb))});
       }
     }
   }
@@ -200,14 +207,12 @@ TEST(LogCubeBrightTest, ColoursNearGreyAreAsGoodAsSampled) {
     const PixelProcessor processor = throughLight(logCube(transform, signal(), {.size = 33, .fitted = fitted}));
     double largest = 0.0;
     for (const double exposure : {16.0, 32.0, 64.0, 128.0}) {
-      for (const Eigen::Vector3d& colour : colours) {
-        const Eigen::Vector3f in = (exposure * colour).cast<float>();
+      for (const Colour& colour : colours) {
+        const Eigen::Vector3f in = (exposure * colour.rgb).cast<float>();
         std::array<float, 4> pixel = {in[0], in[1], in[2], 1.0F};
         processor.apply(pixel);
         const Eigen::Vector3d out = Eigen::Map<const Eigen::Vector3f>(pixel.data()).cast<double>() / exposure;
-        largest = std::max(
-            largest, spectral::deltaE2000(spectral::lab(xyzFromRgb * transform.apply(colour), transform.whiteXyz()),
-                                          spectral::lab(xyzFromRgb * out, transform.whiteXyz())));
+        largest = std::max(largest, spectral::deltaE2000(colour.wanted, labOf(out)));
       }
     }
     std::printf("HP1 -> D65, near bright greys, %s: max %.2f\n", fitted ? "fitted" : "sampled", largest);
