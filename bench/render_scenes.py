@@ -113,20 +113,25 @@ class Runs:
         picture = np.stack([channels[name].pixels.astype(float) for name in ("R", "G", "B")])
         return picture, usage.ru_utime, usage.ru_maxrss / 1024
 
-    def costs(self, scene, truth, samples, variants, seeds=3):
-        """Of each variant, {name: options}: MSE of X, Y and Z, mean over seeds, and the median seconds of a run beyond a
-        start of the program, which reads the scene. Variants take turns, and each turn has a start of its own: what a
-        busy machine adds falls on both."""
+    def costs(self, scene, truth, samples, variants, seeds=3, large=None, pictures=1):
+        """Of each variant, {name: options}: MSE of X, Y and Z, mean over seeds, and the seconds of a run beyond a start
+        of the program, which reads the scene. Variants take turns, now one first and now the other, and each turn has a
+        start of its own: what a busy machine adds falls on both. Seconds are the first variant's median, times the
+        median of the turns' ratios. Where a picture takes too short a time for that, `large` is the same scene with
+        as many pixels as `pictures` have: seconds are then a share of its."""
         errors = {name: [] for name in variants}
         seconds = {name: [] for name in variants}
         for seed in range(1, seeds + 1):
-            start = self.render(scene, 1)[1]
-            for name, options in variants.items():
+            start = self.render(large or scene, 1)[1]
+            for name, options in list(variants.items())[::1 if seed % 2 else -1]:
                 picture, spent, _ = self.render(scene, samples, *options, seed=seed)
                 errors[name].append(((picture - truth) ** 2).mean(axis=(1, 2)))
-                seconds[name].append(spent - start)
+                if large is not None:
+                    spent = self.render(large, samples, *options, seed=seed)[1]
+                seconds[name].append(max(spent - start, 1e-3) / pictures)
+        base = np.array(seconds[next(iter(variants))])
         return {name: {"samples": samples, "mse": [float(v) for v in np.mean(errors[name], axis=0)],
-                       "seconds": max(float(np.median(seconds[name])), 1e-3)} for name in variants}
+                       "seconds": float(np.median(base) * np.median(seconds[name] / base))} for name in variants}
 
 
 def price(cost, channel=1):

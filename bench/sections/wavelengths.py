@@ -3,6 +3,7 @@
 
 import csv
 import json
+import math
 import os
 from pathlib import Path
 
@@ -27,7 +28,10 @@ def guiding(runs):
         scene = scenes.chart(lamp, extra=extra)
         truth = runs.render(scene, TRUTH_SAMPLES, "--guiding", "on", seed=777)[0]
         for samples in SAMPLES:
-            costs = runs.costs(scene, truth, samples, VARIANTS, seeds=9 if samples < 256 else 5)
+            scale = math.isqrt(max(SAMPLES) // samples)  # of the picture that is timed: the same work at each count
+            large = scenes.chart(lamp, width=scale * scenes.WIDTH, height=scale * scenes.HEIGHT, extra=extra)
+            costs = runs.costs(scene, truth, samples, VARIANTS, seeds=5, large=large if scale > 1 else None,
+                               pictures=scale * scale)
             uniform, guided = costs["uniform"], costs["guided"]
             rows.append({"light": label, "wanted": wanted, "samples": samples, **costs,
                          "seconds_ratio": guided["seconds"] / uniform["seconds"],
@@ -84,8 +88,9 @@ def markdown(results):
     width, height = results["size"]
     lines = [f"Guided against uniform wavelengths on a chart, {width} × {height}, direct light, four lanes: how many times lower "
              "time × MSE is. Seconds are user CPU, learning included; the MSE is against "
-             f"{results['truth_samples']:,} samples a pixel. Where guiding finds the light even it leaves wavelengths uniform, "
-             "and what it then costs is the sample learnt from.", "",
+             f"{results['truth_samples']:,} samples a pixel. Below {max(SAMPLES)} samples a larger picture is timed. Where "
+             "guiding finds the light even it leaves wavelengths uniform, and what it then costs is a path in four pixels to "
+             "learn from.", "",
              "| light | samples | time, guided/uniform | Y, equal samples | Y, equal time | asked | X, equal time | Z, equal time |",
              "| --- | --- | --- | --- | --- | --- | --- | --- |"]
     for r in results["guiding"]:

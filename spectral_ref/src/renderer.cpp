@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMostSamplesAPass = 4096;
 /// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
-constexpr std::uint64_t kStateVersion = 0x6d65746100000003U;
+constexpr std::uint64_t kStateVersion = 0x6d65746100000004U;
 
 std::vector<Tile> tilesOf(int width, int height) {
   std::vector<Tile> tiles;
@@ -161,10 +161,9 @@ std::optional<WavelengthDensity> Renderer::wavelengthDensity(int x, int y) const
   if (guide == nullptr || !guide->isReady()) {
     return std::nullopt;
   }
-  const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(m_state->film.format().width) +
-                            static_cast<std::size_t>(x);
-  const auto histogram = guide->histogram(pixel);
-  return WavelengthDensity{guide->density(pixel), {histogram.begin(), histogram.end()}, guide->hasOwn(pixel)};
+  const std::size_t block = guide->blockOf(x, y);
+  const auto histogram = guide->histogram(block);
+  return WavelengthDensity{guide->density(block), {histogram.begin(), histogram.end()}, guide->hasOwn(block)};
 }
 
 const Film& Renderer::film() const {

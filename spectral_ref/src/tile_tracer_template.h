@@ -36,16 +36,17 @@ class LaneTracer : public TileTracer {
     WavelengthGuide::Spectrum spectrum;
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
-        for (std::uint32_t lesson = 0; lesson < WavelengthGuide::kLessons; ++lesson) {
-          // Random numbers of no replicate of the film: it does not depend on what was learnt from them.
-          PathStart<C> start = startOf(x, y, kReplicates, lesson);
-          Lanes<C> worth = m_integrator.radiance(start.ray, start.wavelengths, start.random, NoResampling());
-          for (int k = 0; k < C; ++k) {
-            worth[k] *= start.wavelengths.weight[k] *
-                        m_context.sensor.worth(start.wavelengths.cell[static_cast<std::size_t>(k)]);
-          }
-          guide.learn<C>(pixelOf(x, y), start.wavelengths, worth, spectrum);
+        if (!guide.isLearntFrom(x, y)) {
+          continue;
         }
+        // Random numbers of no replicate of the film: it does not depend on what was learnt from them.
+        PathStart<C> start = startOf(x, y, kReplicates, 0);
+        Lanes<C> worth = m_integrator.radiance(start.ray, start.wavelengths, start.random, NoResampling());
+        for (int k = 0; k < C; ++k) {
+          worth[k] *=
+              start.wavelengths.weight[k] * m_context.sensor.worth(start.wavelengths.cell[static_cast<std::size_t>(k)]);
+        }
+        guide.learn<C>(guide.blockOf(x, y), start.wavelengths, worth, spectrum);
       }
     }
     guide.add(spectrum);
@@ -91,13 +92,13 @@ class LaneTracer : public TileTracer {
     const PathRandom random(
         Sampler(sequenceOf(m_context.options.seed, pixel, replicate), static_cast<std::uint32_t>(index)));
     const Eigen::Vector2f place = m_context.prepared.camera.filtered(x, y, random.pixel());
-    return {random, wavelengthsOf(pixel, random.wavelength()), m_context.prepared.camera.ray(place.x(), place.y())};
+    return {random, wavelengthsOf(x, y, random.wavelength()), m_context.prepared.camera.ray(place.x(), place.y())};
   }
 
-  WavelengthSet<C> wavelengthsOf(std::size_t pixel, float u) const {
+  WavelengthSet<C> wavelengthsOf(int x, int y, float u) const {
     const WavelengthGuide* guide = m_context.guide;
-    if (guide != nullptr && guide->hasOwn(pixel)) {
-      return sampleWavelengths<C>(guide->pixel(pixel), u, m_spread);
+    if (guide != nullptr && guide->hasOwn(guide->blockOf(x, y))) {
+      return sampleWavelengths<C>(guide->own(guide->blockOf(x, y)), u, m_spread);
     }
     return guide == nullptr || guide->isUniform() ? sampleWavelengths<C>(UniformWavelengths(), u, m_spread)
                                                   : sampleWavelengths<C>(guide->picture(), u, m_spread);

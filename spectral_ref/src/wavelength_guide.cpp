@@ -6,7 +6,7 @@
 namespace metamer::spectral_ref {
 namespace {
 
-constexpr int kRadius = 4;         ///< pixels, of the smoothing
+constexpr int kRadius = 4;         ///< blocks, of the smoothing
 constexpr float kLikeness = 0.3F;  ///< relative difference of two tints at which their weight has fallen to 0.6
 /// Half width in cells of what a cell's expected luminance is scaled to.
 constexpr int kScaleCells = 10;
@@ -18,7 +18,7 @@ constexpr int kJudged = 16;
 /// Relative variance of that many samples with uniform lanes up to which wavelengths stay uniform: other noise is
 /// larger then, and reflectances may be less smooth in a density drawn from than in wavelength.
 constexpr double kLittleVariance = 1.5e-4;
-/// Relative variance of a pixel's light drawn from the picture's density from which the pixel gets its own: a quarter
+/// Relative variance of a block's light drawn from the picture's density from which the block gets its own: a quarter
 /// of the samples or less then serve it. Nearer ones are better off with the picture's smooth density: the steps
 /// between bins cost stratified samples more than a slope does.
 constexpr double kUnlike = 8.0;
@@ -45,15 +45,20 @@ double varianceWithUniformLanes(const spectral::DomainSamples& worth, int lanes)
   return mean > 0 ? variance / (mean * mean) : 0.0;
 }
 
+bool isEven(const spectral::DomainSamples& worth, int lanes) {
+  return varianceWithUniformLanes(worth, lanes) < kLittleVariance;
+}
+
 }  // namespace
 
 WavelengthGuide::WavelengthGuide(int width, int height, int lanes, const spectral::DomainSamples& expected)
-    : m_width(width),
-      m_height(height),
+    : m_side(isEven(expected, lanes) ? 2 : 1),
+      m_width((width + m_side - 1) / m_side),
+      m_height((height + m_side - 1) / m_side),
       m_lanes(lanes),
       m_expected(expected),
       m_picture(expected),
-      m_learnt(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * kBins),
+      m_learnt(static_cast<std::size_t>(m_width) * static_cast<std::size_t>(m_height) * kBins),
       m_hasOwn(m_learnt.size() / kBins) {}
 
 void WavelengthGuide::add(const Spectrum& spectrum) {
@@ -82,7 +87,7 @@ spectral::DomainSamples WavelengthGuide::learntSpectrum() const {
   return mixed;
 }
 
-void WavelengthGuide::averageBands() {
+void WavelengthGuide::sumBands() {
   constexpr std::size_t kBinsABand = kBins / kBands;
   std::vector<Bands> own(m_hasOwn.size());
   for (std::size_t i = 0; i < m_learnt.size(); ++i) {
@@ -91,10 +96,10 @@ void WavelengthGuide::averageBands() {
   m_bands.assign(own.size(), {});
   tbb::parallel_for(0, m_height, [&](int y) {
     for (int x = 0; x < m_width; ++x) {
-      Bands& bands = m_bands[pixelOf(x, y)];
+      Bands& bands = m_bands[blockAt(x, y)];
       for (int row = std::max(0, y - 1); row <= std::min(m_height - 1, y + 1); ++row) {
         for (int column = std::max(0, x - 1); column <= std::min(m_width - 1, x + 1); ++column) {
-          const Bands& other = own[pixelOf(column, row)];
+          const Bands& other = own[blockAt(column, row)];
           for (std::size_t band = 0; band < kBands; ++band) {
             bands[band] += other[band];
           }
@@ -104,8 +109,8 @@ void WavelengthGuide::averageBands() {
   });
 }
 
-bool WavelengthGuide::isUnlikePicture(std::size_t pixel) const {
-  const Bands& bands = m_bands[pixel];
+bool WavelengthGuide::isUnlikePicture(std::size_t block) const {
+  const Bands& bands = m_bands[block];
   float sum = 0;
   for (const float band : bands) {
     sum += band;
@@ -122,15 +127,15 @@ bool WavelengthGuide::isUnlikePicture(std::size_t pixel) const {
   return sum > 0.0F && distance > kUnlikeBands;
 }
 
-WavelengthGuide::Bins WavelengthGuide::smoothed(std::size_t pixel) const {
-  const int x = static_cast<int>(pixel % static_cast<std::size_t>(m_width));
-  const int y = static_cast<int>(pixel / static_cast<std::size_t>(m_width));
-  const Bands& bands = m_bands[pixel];
+WavelengthGuide::Bins WavelengthGuide::smoothed(std::size_t block) const {
+  const int x = static_cast<int>(block % static_cast<std::size_t>(m_width));
+  const int y = static_cast<int>(block / static_cast<std::size_t>(m_width));
+  const Bands& bands = m_bands[block];
   Bins bins{};
   double sum = 0;
   for (int row = std::max(0, y - kRadius); row <= std::min(m_height - 1, y + kRadius); ++row) {
     for (int column = std::max(0, x - kRadius); column <= std::min(m_width - 1, x + kRadius); ++column) {
-      const std::size_t other = pixelOf(column, row);
+      const std::size_t other = blockAt(column, row);
       float difference = 0;
       float size = 0;
       for (std::size_t band = 0; band < kBands; ++band) {
@@ -158,25 +163,25 @@ WavelengthGuide::Bins WavelengthGuide::smoothed(std::size_t pixel) const {
   return bins;
 }
 
-void WavelengthGuide::buildPixel(std::size_t pixel) {
-  if (!isUnlikePicture(pixel)) {
+void WavelengthGuide::buildBlock(std::size_t block) {
+  if (!isUnlikePicture(block)) {
     return;
   }
-  const Bins learnt = smoothed(pixel);
+  const Bins learnt = smoothed(block);
   double distance = -1.0;
   double below = 0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     distance += learnt[bin] * learnt[bin] / m_learntByPicture[bin];
-    m_below[pixel * kBins + bin] = static_cast<std::uint16_t>(std::floor(below * static_cast<double>(kUnits)));
+    m_below[block * kBins + bin] = static_cast<std::uint16_t>(std::floor(below * static_cast<double>(kUnits)));
     const auto share = static_cast<double>(kPictureShare);
     below += share * static_cast<double>(m_pictureBelow[bin + 1] - m_pictureBelow[bin]) + (1.0 - share) * learnt[bin];
   }
-  m_hasOwn[pixel] = distance > kUnlike ? 1 : 0;
+  m_hasOwn[block] = distance > kUnlike ? 1 : 0;
 }
 
 void WavelengthGuide::build() {
   const spectral::DomainSamples learnt = learntSpectrum();
-  m_isUniform = varianceWithUniformLanes(learnt, m_lanes) < kLittleVariance;
+  m_isUniform = isEven(learnt, m_lanes);
   const WavelengthTable table(learnt);
   m_picture = m_isUniform ? WavelengthTable(spectral::DomainSamples::Zero()) : table;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
@@ -186,15 +191,15 @@ void WavelengthGuide::build() {
     m_pictureBelow[bin + 1] = m_picture.below(end);
   }
   m_below.resize(m_learnt.size());
-  averageBands();
-  tbb::parallel_for(std::size_t{0}, m_hasOwn.size(), [&](std::size_t pixel) { buildPixel(pixel); });
+  sumBands();
+  tbb::parallel_for(std::size_t{0}, m_hasOwn.size(), [&](std::size_t block) { buildBlock(block); });
   m_isReady = true;
 }
 
-spectral::DomainSamples WavelengthGuide::density(std::size_t pixel) const {
+spectral::DomainSamples WavelengthGuide::density(std::size_t block) const {
   spectral::DomainSamples samples;
   for (std::int32_t cell = 0; cell < kCells; ++cell) {
-    samples[cell] = static_cast<double>(hasOwn(pixel) ? this->pixel(pixel).density(cell) : m_picture.density(cell));
+    samples[cell] = static_cast<double>(hasOwn(block) ? own(block).density(cell) : m_picture.density(cell));
   }
   return samples;
 }

@@ -78,41 +78,56 @@ TEST(WavelengthDensityTest, EveryLaneFollowsTheTable) {
   expectLanesFollow(WavelengthTable(spiky), WavelengthTable::kDefensive, "spiky, by hero", Spread::Hero);
 }
 
-TEST(WavelengthDensityTest, EveryLaneFollowsTheGuideAndNoDensityIsZero) {
-  constexpr std::size_t kSide = 16;
-  const spectral::DomainSamples lamp = spectral::DomainSamples::LinSpaced(0.2, 1.0);
-  WavelengthGuide guide(kSide, kSide, 4, lamp);
+/// Teaches a guide and looks at what it draws from. @param step  pixels a block is wide
+void expectFollowsWhatIsLearnt(const spectral::DomainSamples& lamp, int step) {
+  const int side = 16 * step;
+  WavelengthGuide guide(side, side, 4, lamp);
   Random random;
   WavelengthGuide::Spectrum spectrum;
   // A line and a slope; in one corner red light alone; black pixels in another.
-  const auto isRed = [](std::size_t pixel) { return pixel / kSide < 4 && pixel % kSide < 4; };
-  const auto isBlack = [](std::size_t pixel) { return pixel / kSide > 11 && pixel % kSide > 11; };
-  for (std::size_t pixel = 0; pixel < kSide * kSide; ++pixel) {
-    const auto set = sampleWavelengths<4>(guide.picture(), random.next());
-    Lanes<4> worth;
-    for (int k = 0; k < 4; ++k) {
-      const int cell = set.cell[static_cast<std::size_t>(k)];
-      const float usual = (std::abs(cell - 166) < 3 ? 40.0F : 0.0F) + (cell < 350 ? 1.0F : 0.0F);
-      worth[k] = isBlack(pixel) ? 0.0F : set.weight[k] * (isRed(pixel) ? (cell > 350 ? 1.0F : 0.0F) : usual);
+  int learnt = 0;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      if (!guide.isLearntFrom(x, y)) {
+        continue;
+      }
+      ++learnt;
+      const bool isRed = std::max(x, y) < 4 * step;
+      const bool isBlack = std::min(x, y) > 11 * step;
+      const auto set = sampleWavelengths<4>(guide.picture(), random.next());
+      Lanes<4> worth;
+      for (int k = 0; k < 4; ++k) {
+        const int cell = set.cell[static_cast<std::size_t>(k)];
+        const float usual = (std::abs(cell - 166) < 3 ? 40.0F : 0.0F) + (cell < 350 ? 1.0F : 0.0F);
+        worth[k] = isBlack ? 0.0F : set.weight[k] * (isRed ? (cell > 350 ? 1.0F : 0.0F) : usual);
+      }
+      guide.learn<4>(guide.blockOf(x, y), set, worth, spectrum);
     }
-    guide.learn<4>(pixel, set, worth, spectrum);
   }
+  EXPECT_EQ(learnt, 16 * 16);
   guide.add(spectrum);
   guide.build();
   EXPECT_FALSE(guide.isUniform());
   expectLanesFollow(guide.picture(), WavelengthTable::kDefensive, "picture");
-  const std::size_t black = kSide * kSide - 1;
-  for (const std::size_t pixel : {std::size_t{0}, kSide + 1}) {
-    ASSERT_TRUE(guide.hasOwn(pixel)) << pixel;
-    expectLanesFollow(guide.pixel(pixel),
+  const std::size_t black = guide.blockOf(side - 1, side - 1);
+  for (const std::size_t block : {guide.blockOf(0, 0), guide.blockOf(1, 1)}) {
+    ASSERT_TRUE(guide.hasOwn(block)) << block;
+    expectLanesFollow(guide.own(block),
                       WavelengthTable::kDefensive * static_cast<double>(WavelengthGuide::kPictureShare),
-                      "pixel " + std::to_string(pixel));
+                      "block " + std::to_string(block));
     // Most of what is learnt there is red.
-    EXPECT_GT(guide.density(pixel).tail(50).sum(), 0.5) << pixel;
+    EXPECT_GT(guide.density(block).tail(50).sum(), 0.5) << block;
     EXPECT_LT(guide.density(black).tail(50).sum(), 0.2);
   }
   EXPECT_FALSE(guide.hasOwn(black));
-  EXPECT_FALSE(guide.hasOwn(kSide * 8 + 8));
+  EXPECT_FALSE(guide.hasOwn(guide.blockOf(side / 2, side / 2)));
+}
+
+TEST(WavelengthDensityTest, EveryLaneFollowsTheGuideAndNoDensityIsZero) {
+  spectral::DomainSamples lamp = spectral::DomainSamples::LinSpaced(0.2, 1.0);
+  expectFollowsWhatIsLearnt(lamp, 2);
+  lamp[166] = 100.0;
+  expectFollowsWhatIsLearnt(lamp, 1);
 }
 
 TEST(WavelengthDensityTest, EvenLightStaysUniform) {
