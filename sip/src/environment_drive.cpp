@@ -38,8 +38,6 @@ struct EnvironmentDriver::Memory::State {
 
 EnvironmentDriver::Memory::Memory() : m_state(std::make_unique<State>()) {}
 EnvironmentDriver::Memory::~Memory() = default;
-EnvironmentDriver::Memory::Memory(Memory&&) noexcept = default;
-EnvironmentDriver::Memory& EnvironmentDriver::Memory::operator=(Memory&&) noexcept = default;
 
 void EnvironmentDriver::Memory::startRow() {
   m_state->recent.clear();

@@ -170,10 +170,6 @@ const Film& Renderer::film() const {
   return m_state->film;
 }
 
-const RenderOptions& Renderer::options() const {
-  return m_state->options;
-}
-
 void Renderer::writeState(const ByteSink& sink) const {
   StateWriter writer(sink);
   writer.put(kStateVersion);

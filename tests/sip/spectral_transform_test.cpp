@@ -87,6 +87,14 @@ TEST(SpectralTransformTest, IdentityCopiesExactly) {
   EXPECT_FALSE(SpectralTransform(specOf("D65", "HP1")).isIdentity());
 }
 
+TEST(SpectralTransformTest, OneThatIsAssignedIsTheOther) {
+  SpectralTransform transform(specOf("HP1", "HP1"));
+  transform = SpectralTransform(specOf("D65", "A"));
+  EXPECT_FALSE(transform.isIdentity());
+  const Vector3d colour(0.4, 0.2, 0.1);
+  EXPECT_EQ(transform.apply(colour), SpectralTransform(specOf("D65", "A")).apply(colour));
+}
+
 TEST(SpectralTransformTest, KeptExposureOfTheSameFilterOnBothSidesIsIdentity) {
   TransformSpec spec = specOf("D65", "D65");
   const spectral::Spectrum gel = testLibrary().filter("ISO Standard Lens");

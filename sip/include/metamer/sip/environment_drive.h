@@ -46,8 +46,8 @@ class EnvironmentDriver {
    public:
     Memory();
     ~Memory();
-    Memory(Memory&&) noexcept;
-    Memory& operator=(Memory&&) noexcept;
+    Memory(const Memory&) = delete;
+    Memory& operator=(const Memory&) = delete;
     void startRow();
 
    private:

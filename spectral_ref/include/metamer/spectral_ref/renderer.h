@@ -55,7 +55,6 @@ class Renderer {
   std::uint64_t nextSample() const;
 
   const Film& film() const;
-  const RenderOptions& options() const;
 
   /// What was learnt about a pixel's wavelengths; none without guiding or before the first render().
   std::optional<WavelengthDensity> wavelengthDensity(int x, int y) const;

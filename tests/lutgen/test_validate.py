@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+"""lutgen validate: renders under both lights judge a recipe's transform."""
+
+import json
+import unittest
+
+from lutgen import LutgenTest, lutgen
+
+RECIPE = "metamer: 1\nspace: ACEScg\ninput: {illuminant: D65}\noutput: {illuminant: A}\n"
+FEW = ("--replicates", "3", "--samples", "4")
+
+
+class Validate(LutgenTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "r.yaml").write_text(RECIPE)
+
+    def report(self, *options):
+        run = lutgen("validate", "r.yaml", "--json", "r.json", *options, folder=self.folder)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        return json.loads((self.folder / "r.json").read_text()), run.stdout
+
+    def test_what_remains_has_its_name(self):
+        report, table = self.report(*FEW, "--tolerance", "0.1")
+        scenes = {scene["name"]: scene for scene in report["scenes"]}
+        self.assertEqual(list(scenes), ["smooth objects", "chart", "skin and leaves", "box"])
+        for name, scene in scenes.items():
+            self.assertIn(f"{name:18}{scene['total']:7.3f}", table)
+            # Direct light: the engine errs by metamerism alone, but for noise.
+            if name != "box":
+                self.assertLess(abs(scene["engine"] - scene["metamerism"]), scene["noise"], name)
+            self.assertLess(scene["representation"], 0.05, name)
+        self.assertLess(scenes["smooth objects"]["metamerism"], 0.001)
+        self.assertGreater(scenes["chart"]["metamerism"], 0.5)
+        self.assertGreater(scenes["box"]["interreflection"], 0.05)
+        self.assertLess(report["led_wall"]["corrected"], 0.7 * report["led_wall"]["driven_only"])
+
+    def test_threads_change_no_bit(self):
+        one, _ = self.report(*FEW, "--threads", "1")
+        two, _ = self.report(*FEW, "--threads", "2")
+        self.assertEqual(one, two)
+        other, _ = self.report(*FEW, "--seed", "9")
+        self.assertNotEqual(one["scenes"], other["scenes"])
+
+    def test_beyond_the_tolerance(self):
+        run = lutgen("validate", "r.yaml", *FEW, "--tolerance", "0", folder=self.folder)
+        self.assertEqual(run.returncode, 3)
+        self.assertIn("more than the tolerance 0", run.stdout)
+
+    def test_bad_input(self):
+        self.assertFails("validate", "no.yaml", says=["no.yaml"])
+        self.assertFails("validate", "r.yaml", "--replicates", "2", code=2, says=["--replicates"])
+
+    def test_figures_are_shown_where_the_file_cannot_be_written(self):
+        run = lutgen("validate", "r.yaml", *FEW, "--json", "no/r.json", folder=self.folder)
+        self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
+        self.assertIn("no/r.json", run.stderr)
+        self.assertIn("LED wall", run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
