@@ -119,15 +119,16 @@ class Runs:
         start of its own: what a busy machine adds falls on both. Seconds are the first variant's median, times the
         median of the turns' ratios. Where a picture takes too short a time for that, `large` is the same scene with
         as many pixels as `pictures` have: seconds are then a share of its."""
+        timed = large or scene
         errors = {name: [] for name in variants}
         seconds = {name: [] for name in variants}
         for seed in range(1, seeds + 1):
-            start = self.render(large or scene, 1)[1]
+            start = self.render(timed, 1)[1]
             for name, options in list(variants.items())[::1 if seed % 2 else -1]:
                 picture, spent, _ = self.render(scene, samples, *options, seed=seed)
                 errors[name].append(((picture - truth) ** 2).mean(axis=(1, 2)))
-                if large is not None:
-                    spent = self.render(large, samples, *options, seed=seed)[1]
+                if timed != scene:
+                    spent = self.render(timed, samples, *options, seed=seed)[1]
                 seconds[name].append(max(spent - start, 1e-3) / pictures)
         base = np.array(seconds[next(iter(variants))])
         return {name: {"samples": samples, "mse": [float(v) for v in np.mean(errors[name], axis=0)],

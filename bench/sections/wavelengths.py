@@ -30,8 +30,7 @@ def guiding(runs):
         for samples in SAMPLES:
             scale = math.isqrt(max(SAMPLES) // samples)  # of the picture that is timed: the same work at each count
             large = scenes.chart(lamp, width=scale * scenes.WIDTH, height=scale * scenes.HEIGHT, extra=extra)
-            costs = runs.costs(scene, truth, samples, VARIANTS, seeds=5, large=large if scale > 1 else None,
-                               pictures=scale * scale)
+            costs = runs.costs(scene, truth, samples, VARIANTS, seeds=5, large=large, pictures=scale * scale)
             uniform, guided = costs["uniform"], costs["guided"]
             rows.append({"light": label, "wanted": wanted, "samples": samples, **costs,
                          "seconds_ratio": guided["seconds"] / uniform["seconds"],

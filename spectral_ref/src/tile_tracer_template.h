@@ -97,11 +97,15 @@ class LaneTracer : public TileTracer {
 
   WavelengthSet<C> wavelengthsOf(int x, int y, float u) const {
     const WavelengthGuide* guide = m_context.guide;
-    if (guide != nullptr && guide->hasOwn(guide->blockOf(x, y))) {
-      return sampleWavelengths<C>(guide->own(guide->blockOf(x, y)), u, m_spread);
+    if (guide == nullptr) {
+      return sampleWavelengths<C>(UniformWavelengths(), u, m_spread);
     }
-    return guide == nullptr || guide->isUniform() ? sampleWavelengths<C>(UniformWavelengths(), u, m_spread)
-                                                  : sampleWavelengths<C>(guide->picture(), u, m_spread);
+    const std::size_t block = guide->blockOf(x, y);
+    if (guide->hasOwn(block)) {
+      return sampleWavelengths<C>(guide->own(block), u, m_spread);
+    }
+    return guide->isUniform() ? sampleWavelengths<C>(UniformWavelengths(), u, m_spread)
+                              : sampleWavelengths<C>(guide->picture(), u, m_spread);
   }
 
   const Spread m_spread;

@@ -16,9 +16,8 @@ class Validate(LutgenTest):
         (self.folder / "r.yaml").write_text(RECIPE)
 
     def report(self, *options):
-        run = lutgen("validate", "r.yaml", "--json", "r.json", *options, folder=self.folder)
-        self.assertEqual((run.returncode, run.stderr), (0, ""))
-        return json.loads((self.folder / "r.json").read_text()), run.stdout
+        table = self.assertWorks("validate", "r.yaml", "--json", "r.json", *options)
+        return json.loads((self.folder / "r.json").read_text()), table
 
     def test_what_remains_has_its_name(self):
         report, table = self.report(*FEW, "--tolerance", "0.1")
