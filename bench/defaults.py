@@ -2,11 +2,14 @@
 """What a user gets without asking, and whether a cheaper choice in the same place is also more accurate."""
 
 # Default, the families that could stand in its place, and the colours it is meant for. A program that takes cubes takes
-# nothing else, and a cube is meant for colours inside the gamut and within seven stops.
+# nothing else, some of them no curve before it either, and a cube is meant for colours inside the gamut and within seven
+# stops.
 DEFAULTS = (
     ("map 0.09", ("homogeneous map",), "all"),
     ("exact engine 251", ("exact engine",), "all"),
     ("chain 65, {ocio}", ("matrix", "chain, {ocio}", "fitted cube, {ocio}", "sampled cube, {ocio}"), "all"),
+    ("fitted prelut + cube 33, {ocio}", ("matrix", "fitted prelut + cube, {ocio}", "fitted cube, {ocio}", "sampled cube, {ocio}"),
+     "inside"),
     ("fitted cube 33, {ocio}", ("matrix", "fitted cube, {ocio}", "sampled cube, {ocio}"), "inside"),
 )
 
@@ -45,7 +48,7 @@ def markdown(rows):
     found = beaten(rows)
     lines = ["Cheaper (faster beyond noise, and no larger) and more accurate (p99) than the default in the same place: " +
              ("; ".join(f"{name} than {default} ({pair})" for pair, default, name in found) or "none") +
-             ". Defaults: map 0.09, 251 bands, a chain of 65 nodes, a fitted cube of 33."]
+             ". Defaults: map 0.09, 251 bands, a chain of 65 nodes, fitted cubes of 33, with and without a prelut."]
     larger = [(pair, default, row) for pair, default, row in faster_and_more_accurate(rows) if row["bytes"] > default["bytes"]]
     if larger:
         lines += ["", "Faster in this run and more accurate, but larger: " +

@@ -37,7 +37,7 @@ extern "C" const char* metamerLinkedOcioVersion() {
 extern "C" void* metamerFile(const char* path, int logInOut) {
   auto file = OCIO::FileTransform::Create();
   file->setSrc(path);
-  file->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+  file->setInterpolation(OCIO::INTERP_BEST);
   auto group = OCIO::GroupTransform::Create();
   if (logInOut != 0) {
     group->appendTransform(acescct(OCIO::TRANSFORM_DIR_FORWARD));

@@ -66,7 +66,7 @@ def matrix(exact):
 
 def file_processor(path, log_in_out):
     """A LUT file of ours; `log_in_out`: one that takes and gives ACEScct, run here from linear to linear."""
-    file = ocio.FileTransform(str(path), interpolation=ocio.INTERP_TETRAHEDRAL)
+    file = ocio.FileTransform(str(path), interpolation=ocio.INTERP_BEST)
     if not log_in_out:
         return cpu_processor(file)
     return cpu_processor(ocio.GroupTransform([acescct_transform(ocio.TRANSFORM_DIR_FORWARD), file,

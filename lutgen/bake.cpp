@@ -145,7 +145,9 @@ void addBake(CLI::App& application) {
   command->add_option("--stops", arguments->stops, "Exposures to judge by, round 18 % grey: LOWEST HIGHEST")
       ->expected(2)
       ->check(CLI::Range(-24, 24));
-  command->add_option("--shapersize", arguments->shaperSize, "Entries of the curve before a .csp's or .cub's table")
+  command
+      ->add_option("--shapersize", arguments->shaperSize,
+                   "Entries of the curve before a table, where the format has one")
       ->check(CLI::Range(2, 65536));
   command->add_option("--inputspace", arguments->inputSpace, "The same as --space");
   command->add_option("--outputspace", arguments->outputSpace, "The same space again: a transform stays in it");

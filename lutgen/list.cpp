@@ -33,7 +33,10 @@ nlohmann::ordered_json entriesOf(const std::string& kind) {
   auto entries = nlohmann::ordered_json::array();
   if (kind == "formats") {
     for (const ocio::LutFormat& format : ocio::lutFormats()) {
-      entries.push_back({{"name", format.name}, {"extension", format.extension}, {"holds", format.use}});
+      entries.push_back({{"name", format.name},
+                         {"extension", format.extension},
+                         {"holds", format.use},
+                         {"prelut", format.holdsPrelut}});
     }
     return entries;
   }

@@ -17,6 +17,7 @@ MAP_TOLERANCES = (0.03, 0.09, 0.3, 1.0)
 EXACT_BANDS = (81, 161, 251)
 CHAIN_SIZES = (17, 33, 65, 129)
 CUBE_SIZES = (17, 33, 65)
+CUBE_KINDS = (("fitted prelut + cube", ("--format", "resolve_cube")), ("fitted cube", ()), ("sampled cube", ("--sampled",)))
 
 
 def bake(context, pair, folder, name, *options):
@@ -48,13 +49,13 @@ def candidates_of(context, pair, handle, folder):
         made[f"chain {size}, OCIO {older.version}"] = (f"chain, OCIO {older.version}", file.stat().st_size,
                                                        older.file(file, False))
     for size in CUBE_SIZES:
-        for kind, options in (("fitted", ()), ("sampled", ("--sampled",))):
-            file = bake(context, pair, folder, f"{kind}{size}.cube", "--size", str(size), *options)
+        for kind, options in CUBE_KINDS:
+            file = bake(context, pair, folder, f"{kind.replace(' ', '_')}{size}.cube", "--size", str(size), *options)
             newest = peers.file_processor(file, True)
-            made[f"{kind} cube {size}, OCIO {ocio.__version__}"] = (
-                f"{kind} cube, OCIO {ocio.__version__}", file.stat().st_size, lambda s, d, p=newest: peers.run_ocio(p, s, d))
-            made[f"{kind} cube {size}, OCIO {older.version}"] = (f"{kind} cube, OCIO {older.version}",
-                                                                 file.stat().st_size, older.file(file, True))
+            made[f"{kind} {size}, OCIO {ocio.__version__}"] = (
+                f"{kind}, OCIO {ocio.__version__}", file.stat().st_size, lambda s, d, p=newest: peers.run_ocio(p, s, d))
+            made[f"{kind} {size}, OCIO {older.version}"] = (f"{kind}, OCIO {older.version}", file.stat().st_size,
+                                                            older.file(file, True))
     return made
 
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "metamer/spectral/pending_file.h"
 #include "picture_commands.h"
@@ -93,6 +94,11 @@ void print(const nlohmann::ordered_json& json) {
 void run(const ValidateArguments& arguments) {
   const auto library = spectral::DataLibrary::openDefault();
   const sip::Recipe recipe = sip::readRecipe(arguments.recipe);
+  // The place first: what cannot be written is not worth the renders.
+  std::optional<spectral::PendingFile> file;
+  if (!arguments.json.empty()) {
+    file.emplace(arguments.json);
+  }
   const Validation result = validate(recipe, library, arguments.options);
   nlohmann::ordered_json json;
   json["metamer_validation"] = 1;
@@ -105,8 +111,9 @@ void run(const ValidateArguments& arguments) {
   }
   json["led_wall"] = summary(result.wall);
   print(json);
-  if (!arguments.json.empty()) {
-    spectral::writeWholeFile(arguments.json, json.dump(1) + "\n");
+  if (file) {
+    file->write(json.dump(1) + "\n");
+    file->commit();
   }
   const double beyond = json["scenes"][0]["beyond_noise"].get<double>();
   if (beyond > arguments.tolerance) {

@@ -157,7 +157,7 @@ std::string convertedLuts(const std::vector<std::filesystem::path>& luts, const 
     PixelProcessor::fromFile(lut);
     auto transform = OCIO::FileTransform::Create();
     transform->setSrc(std::filesystem::absolute(lut).string().c_str());
-    transform->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+    transform->setInterpolation(OCIO::INTERP_BEST);
     group->appendTransform(transform);
     description.name += (description.name.empty() ? "" : " + ") + lut.filename().string();
     description.lines.push_back(lut.filename().string() + " sha256 " + sha256(spectral::readTextFile(lut)));

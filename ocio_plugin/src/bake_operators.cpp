@@ -7,6 +7,7 @@
 
 #include "metamer/ocio/shaper.h"
 #include "metamer/spectral/input_error.h"
+#include "prelut.h"
 
 namespace metamer::ocio {
 namespace {
@@ -120,6 +121,7 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
   certificate.representation = representation;
   certificate.fitted = options.fitted;
   certificate.negativesKept = format.holdsNegatives;
+  certificate.prelutSize = 0;
   certificate.size = tableSize(options, isCube ? Representation::LogCube : representation);
   if (!isCube && representation != Representation::LogCube) {
     return {space.wrapped(engineOperators(representation, prepared.spec, prepared.transform, certificate.size)),
@@ -128,21 +130,28 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
   const spectral::LogEncoding encoding = cubeEncoding(space, options);
   const Signal signal = cubeSignal(space, encoding);
   certificate.shaper = space.isLog ? space.name : spectral::nameOf(encoding);
-  OCIO::ConstTransformRcPtr onSignal;
+  OCIO::GroupTransformRcPtr onSignal = inOrder({});
   if (representation == Representation::LogCube) {
-    onSignal = logCube(prepared.transform, signal,
-                       {.size = certificate.size,
-                        .fitted = options.fitted,
-                        .lowestStop = static_cast<double>(certificate.probes.lowestStop),
-                        .highestStop = static_cast<double>(certificate.probes.highestStop),
-                        .belowZero = format.holdsNegatives});
+    OCIO::ConstTransformRcPtr curve;
+    if (options.fitted && format.holdsPrelut && certificate.size >= kPrelutFromSize) {
+      certificate.prelutSize = options.shaperSize != 0 ? options.shaperSize : kPrelutEntries;
+      curve = prelut(signal, certificate.size, certificate.probes.lowestStop, certificate.prelutSize);
+    }
+    const auto table = logCube(prepared.transform, signal,
+                               {.size = certificate.size,
+                                .fitted = options.fitted,
+                                .lowestStop = static_cast<double>(certificate.probes.lowestStop),
+                                .highestStop = static_cast<double>(certificate.probes.highestStop),
+                                .belowZero = format.holdsNegatives,
+                                .prelut = curve});
+    onSignal = inOrder({curve, table});
   } else if (representation != Representation::Identity) {
     onSignal =
         inOrder({signal.toEngine, engineOperators(representation, prepared.spec, prepared.transform, certificate.size),
                  signal.fromEngine});
   }
   if (isCube || space.isLog) {
-    return {inOrder({onSignal}), signal.fromEngine, signal.toEngine};
+    return {onSignal, signal.fromEngine, signal.toEngine};
   }
   return {inOrder({shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD), onSignal,
                    shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE)}),

@@ -135,6 +135,9 @@ std::string Certificate::json() const {
   if (!shaper.empty()) {
     transform["shaper"] = shaper;
   }
+  if (prelutSize > 0) {
+    transform["prelut"] = prelutSize;
+  }
   transform["engine_bands"] = bandCount;
   if (!sha256.empty()) {
     transform["sha256"] = sha256;
@@ -203,7 +206,8 @@ std::vector<std::string> Certificate::lines() const {
       "metamer " + toolVersion() + ": " + side(recipe.input) + " -> " + side(recipe.output),
       "space " + recipe.space + ", " + nameOf(representation) +
           (size > 0 ? ", " + std::to_string(size) + " nodes a side, " + (fitted ? "fitted" : "sampled") : "") +
-          (shaper.empty() ? "" : ", shaper " + shaper),
+          (shaper.empty() ? "" : ", shaper " + shaper) +
+          (prelutSize > 0 ? ", prelut of " + std::to_string(prelutSize) + " entries" : ""),
       figures.data(), "worst: " + error.worstProbe};
   std::array<char, 160> range{};
   std::snprintf(range.data(), range.size(), "gamut %s%s; condition %.4g, rank %d, gain %.4g, folds %.2f %%",

@@ -54,11 +54,12 @@ struct Direction {
 
 class Sampler {
  public:
-  Sampler(const sip::SpectralTransform& transform, const Signal& signal, int size, double lowestStop,
-          double highestStop)
+  Sampler(const sip::SpectralTransform& transform, const Signal& axes, const Signal& signal, int size,
+          double lowestStop, double highestStop)
       : m_transform(transform),
         m_toEngine(signal.toEngine),
         m_fromEngine(signal.fromEngine),
+        m_axesFromEngine(axes.fromEngine),
         m_xyzFromRgb(transform.space().xyzFromRgb()),
         m_rgbFromXyz(transform.space().rgbFromXyz()),
         m_white(transform.whiteXyz()),
@@ -117,7 +118,7 @@ class Sampler {
       put(in, gains[k] * directions[k].in);
       put(out, gains[k] * directions[k].out);
     }
-    m_fromEngine.apply(in);
+    m_axesFromEngine.apply(in);
     m_fromEngine.apply(out);
     // Slopes of light by signal, one channel of the signal moved at a time.
     std::array<std::vector<float>, 6> moved;
@@ -160,6 +161,7 @@ class Sampler {
   const sip::SpectralTransform& m_transform;
   PixelProcessor m_toEngine;
   PixelProcessor m_fromEngine;
+  PixelProcessor m_axesFromEngine;
   Eigen::Matrix3d m_xyzFromRgb;
   Eigen::Matrix3d m_rgbFromXyz;
   Eigen::Vector3d m_white;
@@ -181,9 +183,9 @@ void CubeJudge::errors(std::span<const CubeSample> samples, std::span<float> rgb
   }
 }
 
-std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, const Signal& signal, int size,
-                                    double lowestStop, double highestStop) {
-  const Sampler sampler(transform, signal, size, lowestStop, highestStop);
+std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, const Signal& axes, const Signal& signal,
+                                    int size, double lowestStop, double highestStop) {
+  const Sampler sampler(transform, axes, signal, size, lowestStop, highestStop);
   constexpr int kBlocks = kChromaticityCount / kBlock;
   std::vector<std::vector<CubeSample>> blocks(kBlocks);
   parallelFor(kBlocks, [&](int block) {

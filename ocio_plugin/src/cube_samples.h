@@ -22,8 +22,10 @@ struct CubeSample {
 /// Colours spread as the error protocol's probes are: chromaticities evenly over the part of the gamut that
 /// reflectances can make under the input light, exposures evenly between two stops round Y = 0.18 and somewhat beyond.
 /// The transform is exact on a chromaticity, and the same at every exposure of it. Ordered by node.
-std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, const Signal& signal, int size,
-                                    double lowestStop, double highestStop);
+/// @param axes    of the lattice
+/// @param signal  of its values
+std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, const Signal& axes, const Signal& signal,
+                                    int size, double lowestStop, double highestStop);
 
 /// Judges signals by CIEDE2000 in full, for deviations that are not small.
 class CubeJudge {

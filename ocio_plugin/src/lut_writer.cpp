@@ -9,6 +9,7 @@
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
+#include "prelut.h"
 
 namespace metamer::ocio {
 namespace {
@@ -41,6 +42,23 @@ std::vector<float> tabulated(const OCIO::ConstGroupTransformRcPtr& group, int si
   }
   PixelProcessor(group).apply(nodes);
   return nodes;
+}
+
+OCIO::ConstGroupTransformRcPtr withoutFirst(const OCIO::ConstGroupTransformRcPtr& group) {
+  auto rest = OCIO::GroupTransform::Create();
+  for (int k = 1; k < group->getNumTransforms(); ++k) {
+    rest->appendTransform(group->getTransform(k)->createEditableCopy());
+  }
+  return rest;
+}
+
+/// Of a curve, four floats each; none of no curve.
+std::vector<float> entriesOf(const OCIO::ConstLut1DTransformRcPtr& curve) {
+  std::vector<float> entries(curve ? 4 * curve->getLength() : 0);
+  for (std::size_t at = 0; at < entries.size(); at += 4) {
+    curve->getValue(at / 4, entries[at], entries[at + 1], entries[at + 2]);
+  }
+  return entries;
 }
 
 /// The group along the three axes of channels, four floats an entry.
@@ -85,10 +103,12 @@ std::string groupText(const LutFormat& format, const OCIO::ConstGroupTransformRc
 
 const std::vector<LutFormat>& lutFormats() {
   static const std::vector<LutFormat> formats = {
-      {"Color Transform Format", ".ctf", "OCIO operators; exposure-invariant, scene-linear pixels", Content::Operators},
-      {"Academy/ASC Common LUT Format", ".clf", "CLF operators: log, 3-D table, antilog", Content::Operators},
+      {"Color Transform Format", ".ctf", "OCIO operators; exposure-invariant, scene-linear pixels", Content::Operators,
+       true, true},
+      {"Academy/ASC Common LUT Format", ".clf", "CLF operators: log, curve, 3-D table, antilog", Content::Operators,
+       true, true},
       {"iridas_cube", ".cube", "3-D table, log in and out (Adobe, Iridas)", Content::Cube},
-      {"resolve_cube", ".cube", "3-D table, log in and out (Resolve)", Content::Cube},
+      {"resolve_cube", ".cube", "curve and 3-D table, log in and out (Resolve)", Content::Cube, true, true},
       {"cinespace", ".csp", "3-D table, log in and out (Cinespace)", Content::Cube},
       {"flame", ".3dl", "3-D table of 12 bits, log in and out (Flame)", Content::Cube, false},
       {"lustre", ".3dl", "3-D table of 12 bits, log in and out (Lustre)", Content::Cube, false},
@@ -143,12 +163,12 @@ std::string lutText(const LutFormat& format, const OCIO::ConstGroupTransformRcPt
   if (format.extension != ".cube" && format.name != "spi3d") {
     return bakerText(format.name, group, size, shaperSize, description);
   }
-  const std::vector<float> nodes = tabulated(group, size);
-  if (format.name == "spi3d") {
-    return spi3dText(nodes, size);
+  if (format.name == "resolve_cube") {
+    const auto curve = leadingPrelut(group);
+    return resolveCubeText(entriesOf(curve), tabulated(curve ? withoutFirst(group) : group, size), size, description);
   }
-  return format.name == "resolve_cube" ? resolveCubeText(nodes, size, description)
-                                       : iridasCubeText(nodes, size, description);
+  const std::vector<float> nodes = tabulated(group, size);
+  return format.name == "spi3d" ? spi3dText(nodes, size) : iridasCubeText(nodes, size, description);
 }
 
 }  // namespace metamer::ocio

@@ -28,7 +28,7 @@ PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
   auto transform = OCIO::FileTransform::Create();
   // OCIO looks relative paths up in its search path, and keeps what it has read by name.
   transform->setSrc(std::filesystem::absolute(file).string().c_str());
-  transform->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+  transform->setInterpolation(OCIO::INTERP_BEST);
   try {
     return PixelProcessor(transform);
   } catch (const spectral::InputError& error) {

@@ -11,23 +11,37 @@
 #include "matrix_operator.h"
 #include "metamer/ocio/exposure_invariant_chain.h"
 #include "metamer/ocio/pixel_processor.h"
+#include "prelut.h"
 #include "sampled_cube.h"
 
 namespace metamer::ocio {
 namespace {
 
-/// Sets the neutral node next below black, which is no light, so that black itself comes out exactly: it lies between
-/// two nodes, and where its neighbours' results lie beyond a logarithm's toe the two do not meet there of themselves.
-void keepBlack(std::vector<Eigen::Vector3f>& nodes, int size, const Signal& signal) {
+/// Of a cell: as near as this to a node is on it.
+constexpr float kOnNode = 0.2F;
+
+Eigen::Vector3f blackOf(const Signal& signal) {
   std::array<float, 4> pixel = {0.0F, 0.0F, 0.0F, 1.0F};
   PixelProcessor(signal.fromEngine).apply(pixel);
-  const Eigen::Vector3f black(pixel[0], pixel[1], pixel[2]);
+  return {pixel[0], pixel[1], pixel[2]};
+}
+
+/// The neutral node next below black is no light: it is set so that black itself comes out exactly. The one above is,
+/// where black all but lies on it. Left alone, the two do not meet at black where one's result lies beyond a
+/// logarithm's toe.
+void keepBlack(std::vector<Eigen::Vector3f>& nodes, int size, const Signal& axes, const Signal& signal) {
+  const auto black = blackOf(signal);
   if (black.minCoeff() < 0.0F || black.maxCoeff() >= 1.0F) {
     return;  // outside the table
   }
-  const CubeStencil stencil = cubeStencil(black, size);
-  Eigen::Vector3f* const below = nodes.data() + stencil.node;
-  *below = (black - stencil.weight[3] * below[cornerStep(7, size)]) / stencil.weight[0];
+  const CubeStencil stencil = cubeStencil(blackOf(axes), size);
+  Eigen::Vector3f& below = nodes[stencil.node];
+  Eigen::Vector3f& above = nodes[stencil.node + cornerStep(7, size)];
+  if (stencil.weight[0] > kOnNode) {
+    below = (black - stencil.weight[3] * above) / stencil.weight[0];
+  } else {
+    above = (black - stencil.weight[0] * below) / stencil.weight[3];
+  }
 }
 
 }  // namespace
@@ -50,10 +64,11 @@ OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const
                                   const LogCubeOptions& options) {
   const int size = options.size;
   assert(size >= kSmallestTable && size <= kLargestTable);
-  std::vector<Eigen::Vector3f> nodes = sampledCube(transform, signal, size);
+  const Signal axes = options.prelut ? behindPrelut(signal, options.prelut) : signal;
+  std::vector<Eigen::Vector3f> nodes = sampledCube(transform, axes, signal, size);
   if (options.fitted) {
-    keepBlack(nodes, size, signal);
-    fitCube(nodes, size, cubeSamples(transform, signal, size, options.lowestStop, options.highestStop),
+    keepBlack(nodes, size, axes, signal);
+    fitCube(nodes, size, cubeSamples(transform, axes, signal, size, options.lowestStop, options.highestStop),
             CubeJudge(transform, signal), options.belowZero);
   }
   auto table = OCIO::Lut3DTransform::Create(static_cast<unsigned long>(size));

@@ -53,8 +53,9 @@ void applyAlongDiagonal(const sip::SpectralTransform& transform, std::vector<flo
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> sampledCube(const sip::SpectralTransform& transform, const Signal& signal, int size) {
-  const PixelProcessor toEngine(signal.toEngine);
+std::vector<Eigen::Vector3f> sampledCube(const sip::SpectralTransform& transform, const Signal& axes,
+                                         const Signal& signal, int size) {
+  const PixelProcessor toEngine(axes.toEngine);
   const PixelProcessor fromEngine(signal.fromEngine);
   const auto side = static_cast<std::size_t>(size);
   std::vector<float> rgba(4 * side * side * side);

@@ -8,7 +8,10 @@
 
 namespace metamer::ocio {
 
-/// The transform's own values at the nodes of a table over 0 ... 1: signal, red fastest.
-std::vector<Eigen::Vector3f> sampledCube(const sip::SpectralTransform& transform, const Signal& signal, int size);
+/// The transform's own values at the nodes of a table over 0 ... 1, red fastest.
+/// @param axes    of the table
+/// @param signal  of the values
+std::vector<Eigen::Vector3f> sampledCube(const sip::SpectralTransform& transform, const Signal& axes,
+                                         const Signal& signal, int size);
 
 }  // namespace metamer::ocio

@@ -83,6 +83,22 @@ TEST(BakeTest, CubesOfLinearAndLogSpacesAgree) {
   EXPECT_GT(std::abs(a[0] - 0.41F), 0.01F);
 }
 
+TEST(BakeTest, PrelutsStandWhereTheyHelp) {
+  const auto prelutOf = [](const char* format, const BakeOptions& options) {
+    return bakeText(recipeOf("D65", "A"), testLibrary(), format, options).certificate.prelutSize;
+  };
+  EXPECT_NE(bakeText(recipeOf("D65", "A"), testLibrary(), "resolve_cube", {.size = 17}).text.find("LUT_1D_SIZE 4096"),
+            std::string::npos);
+  EXPECT_EQ(prelutOf("clf", {.size = 17}), 4096);
+  EXPECT_EQ(prelutOf("resolve_cube", {.size = 17}), 4096);
+  EXPECT_EQ(prelutOf("clf", {.size = 17, .shaperSize = 300}), 300);
+  EXPECT_EQ(prelutOf("clf", {.size = 16}), 0) << "few nodes";
+  EXPECT_EQ(prelutOf("clf", {.size = 17, .fitted = false}), 0) << "the classical table";
+  EXPECT_EQ(prelutOf("iridas_cube", {.size = 17}), 0) << "no place for one";
+  EXPECT_EQ(prelutOf("ctf", {.size = 17}), 0) << "no cube";
+  EXPECT_EQ(prelutOf("ctf", {.representation = Representation::LogCube, .size = 17}), 4096);
+}
+
 // Sampled nodes are the engine's own answers: light in, through the curve, light out.
 TEST(BakeTest, SampledCubeNodesAreExact) {
   const TemporaryFolder folder;

@@ -11,6 +11,7 @@
 #include "metamer/ocio/representation.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/spectral/pending_file.h"
+#include "prelut.h"
 #include "sip/sip_fixture.h"
 #include "spectral/temporary_folder.h"
 
@@ -119,6 +120,35 @@ TEST(CubeTest, FlavoursKeepApart) {
   // Red runs fastest, in plain decimals.
   EXPECT_NE(resolve.find("0.0000000 0.0000000 0.0000000\n0.5000000 0.0000000 0.0000000\n1.0000000"), std::string::npos);
   EXPECT_EQ(lutFormat("A.CUBE", "").name, "iridas_cube");
+}
+
+// A group that starts with a prelut keeps it where the format has one, at as many nodes; what only looks like one is
+// left in the table.
+TEST(CubeTest, ResolveKeepsThePrelut) {
+  const Signal signal = {shaperTransform(spectral::LogEncoding::AcesCct, OCIO::TRANSFORM_DIR_INVERSE),
+                         shaperTransform(spectral::LogEncoding::AcesCct, OCIO::TRANSFORM_DIR_FORWARD)};
+  const OCIO::Lut1DTransformRcPtr curve = prelut(signal, kSize, -7.0, 1000);
+  auto group = OCIO::GroupTransform::Create();
+  group->appendTransform(curve);
+  group->appendTransform(
+      logCube(sip::SpectralTransform(sip::specOf("D65", "HP1")), signal, {.size = kSize, .prelut = curve}));
+  const LutDescription description{"n", "i", {}};
+  const std::string text = lutText(lutFormat("a.cube", "resolve_cube"), group, kSize, description);
+  EXPECT_NE(text.find("LUT_1D_SIZE 1000\nLUT_1D_INPUT_RANGE 0.0 1.0\nLUT_3D_SIZE 17\n"), std::string::npos);
+  const TemporaryFolder folder;
+  spectral::PendingFile pending(folder / "a.cube");
+  pending.write(text);
+  pending.commit();
+  std::vector<float> expected = probes(-0.2F, 1.2F);
+  std::vector<float> found = expected;
+  PixelProcessor(group).apply(expected);
+  PixelProcessor::fromFile(folder / "a.cube").apply(found);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    ASSERT_NEAR(found[k], expected[k], 1e-5F * std::max(1.0F, std::abs(expected[k]))) << k;
+  }
+
+  curve->setValue(999, 0.9F, 0.9F, 0.9F);
+  EXPECT_EQ(lutText(lutFormat("a.cube", "resolve_cube"), group, kSize, description).find("LUT_1D"), std::string::npos);
 }
 
 TEST(LutFormatTest, UnknownFormatsListTheKnown) {

@@ -12,7 +12,7 @@ BIN = Path(os.environ["METAMER_BIN"])
 
 
 def newest(file, pixels):
-    transform = ocio.FileTransform(src=str(file), interpolation=ocio.INTERP_TETRAHEDRAL)
+    transform = ocio.FileTransform(src=str(file), interpolation=ocio.INTERP_BEST)
     processor = ocio.Config.CreateRaw().getProcessor(transform)
     flags = ocio.OptimizationFlags(int(ocio.OPTIMIZATION_DEFAULT) & ~int(ocio.OPTIMIZATION_FAST_LOG_EXP_POW))
     cpu = processor.getOptimizedCPUProcessor(ocio.BIT_DEPTH_F32, ocio.BIT_DEPTH_F32, flags)

@@ -17,11 +17,11 @@ namespace metamer::ocio {
 
 struct BakeOptions {
   /// Empty: Identity where the recipe does nothing, else what the format holds best.
-  std::optional<Representation> representation;
+  std::optional<Representation> representation = {};
   int size = 0;        ///< nodes along a side; 0: 65 for a chain, 33 for a cube. The most, where there is a tolerance
   bool fitted = true;  ///< tables solved for least error; false: the transform's values
-  std::optional<spectral::LogEncoding> shaper;  ///< of cubes of a linear space; empty: ACEScct
-  OCIO::ConstConfigRcPtr config;                ///< where spaces that are not built in are looked up; may be null
+  std::optional<spectral::LogEncoding> shaper = {};  ///< of cubes of a linear space; empty: ACEScct
+  OCIO::ConstConfigRcPtr config = {};                ///< where spaces that are not built in are looked up; may be null
   /// 99th percentile of CIEDE2000 to hold, over the gamut and exposures that the certificate states, with the cheapest
   /// that does: nothing, a matrix, a table of few nodes, of more. Not together with `representation`.
   std::optional<double> tolerance = {};

@@ -23,6 +23,7 @@ struct LutFormat {
   std::string use;        ///< one line for a list
   Content content = Content::Cube;
   bool holdsNegatives = true;  ///< false: whole numbers, which clip at 0
+  bool holdsPrelut = false;    ///< whether a curve may stand in front of a log cube's table
 };
 
 /// All that OCIO's group writer and baker know, the one that an extension picks first among those that share it.
@@ -45,7 +46,8 @@ struct LutDescription {
 
 /// A group of operators as the text of a file.
 /// @param size        nodes along a side where the format holds a table
-/// @param shaperSize  entries of a curve in front of the table, where the format has one; 0: its usual number
+/// @param shaperSize  entries of a curve in front of the table that the format itself asks for, or of Content::Curves;
+///                    0: its usual number
 /// @throws spectral::InputError where the group cannot be written in this format
 std::string lutText(const LutFormat& format, const OCIO::ConstGroupTransformRcPtr& group, int size,
                     const LutDescription& description, int shaperSize = 0);
