@@ -4,23 +4,33 @@
 #include <sstream>
 
 #include "metamer/spectral/input_error.h"
+#include "prelut.h"
 
 namespace metamer::ocio {
 namespace {
 
 constexpr const char* kInput = "signal";
+constexpr const char* kAxes = "axes";
 constexpr const char* kOutput = "transformed";
 
-/// A config of two spaces, one the group away from the other: what the baker needs to be asked.
-OCIO::ConstConfigRcPtr configOf(const OCIO::ConstGroupTransformRcPtr& group) {
+void addSpace(OCIO::Config& config, const char* name, const OCIO::ConstTransformRcPtr& fromSignal) {
+  auto space = OCIO::ColorSpace::Create();
+  space->setName(name);
+  if (fromSignal) {
+    space->setTransform(fromSignal, OCIO::COLORSPACE_DIR_FROM_REFERENCE);
+  }
+  config.addColorSpace(space);
+}
+
+/// What the baker needs to be asked: a config of the signal, of that behind the group, and of a table's axes where
+/// there is a prelut.
+OCIO::ConstConfigRcPtr configOf(const OCIO::ConstGroupTransformRcPtr& group, const OCIO::ConstTransformRcPtr& prelut) {
   auto config = OCIO::Config::CreateRaw()->createEditableCopy();
-  auto input = OCIO::ColorSpace::Create();
-  input->setName(kInput);
-  config->addColorSpace(input);
-  auto output = OCIO::ColorSpace::Create();
-  output->setName(kOutput);
-  output->setTransform(group, OCIO::COLORSPACE_DIR_FROM_REFERENCE);
-  config->addColorSpace(output);
+  addSpace(*config, kInput, nullptr);
+  addSpace(*config, kOutput, group);
+  if (prelut) {
+    addSpace(*config, kAxes, prelut);
+  }
   return config;
 }
 
@@ -52,14 +62,18 @@ std::string bakerText(const std::string& formatName, const OCIO::ConstGroupTrans
   std::ostringstream text;
   try {
     auto baker = OCIO::Baker::Create();
-    baker->setConfig(configOf(group));
+    const OCIO::ConstLut1DTransformRcPtr prelut = leadingPrelut(group);
+    baker->setConfig(configOf(group, prelut));
     baker->setFormat(formatName.c_str());
     baker->setInputSpace(kInput);
     baker->setTargetSpace(kOutput);
     if (size > 0) {
       baker->setCubeSize(size);
     }
-    if (shaperSize > 0) {
+    if (prelut) {
+      baker->setShaperSpace(kAxes);
+      baker->setShaperSize(static_cast<int>(prelut->getLength()));
+    } else if (shaperSize > 0) {
       baker->setShaperSize(shaperSize);
     }
     // Cinespace alone has a place for metadata.

@@ -90,7 +90,9 @@ TEST(BakeTest, PrelutsStandWhereTheyHelp) {
   EXPECT_NE(bakeText(recipeOf("D65", "A"), testLibrary(), "resolve_cube", {.size = 17}).text.find("LUT_1D_SIZE 4096"),
             std::string::npos);
   EXPECT_EQ(prelutOf("clf", {.size = 17}), 4096);
-  EXPECT_EQ(prelutOf("resolve_cube", {.size = 17}), 4096);
+  for (const char* name : {"resolve_cube", "cinespace", "houdini"}) {
+    EXPECT_EQ(prelutOf(name, {.size = 17}), 4096) << name;
+  }
   EXPECT_EQ(prelutOf("clf", {.size = 17, .shaperSize = 300}), 300);
   EXPECT_EQ(prelutOf("clf", {.size = 16}), 0) << "few nodes";
   EXPECT_EQ(prelutOf("clf", {.size = 17, .fitted = false}), 0) << "the classical table";
