@@ -55,9 +55,9 @@ struct LogCubeOptions {
 /// is a prelut, what comes out of it goes into the table.
 ///
 /// A fitted table's nodes are no values of the transform: what lies between them is as near to it as their number
-/// allows (docs/representations.md). Its neutral nodes are exact, but for the one next below black, which keeps black
-/// black. A sampled table has the transform's own values, however far below 0 or above 1 they lie; a fitted one lies
-/// between the lowest and the highest that real colours become.
+/// allows (docs/representations.md). Its neutral nodes are exact, but for the one at black or next below, which keeps
+/// black black. A sampled table has the transform's own values, however far below 0 or above 1 they lie; a fitted one
+/// lies between the lowest and the highest that real colours become.
 OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const Signal& signal,
                                   const LogCubeOptions& options = {});
 
