@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "metamer/spectral/input_error.h"
-#include "prelut.h"
 
 namespace metamer::ocio {
 namespace {
@@ -57,12 +56,12 @@ std::string withComments(std::string text, const std::string& formatName, const 
 
 }  // namespace
 
-std::string bakerText(const std::string& formatName, const OCIO::ConstGroupTransformRcPtr& group, int size,
-                      int shaperSize, const LutDescription& description) {
+std::string bakerText(const std::string& formatName, const OCIO::ConstGroupTransformRcPtr& group,
+                      const OCIO::ConstLut1DTransformRcPtr& prelut, int size, int shaperSize,
+                      const LutDescription& description) {
   std::ostringstream text;
   try {
     auto baker = OCIO::Baker::Create();
-    const OCIO::ConstLut1DTransformRcPtr prelut = leadingPrelut(group);
     baker->setConfig(configOf(group, prelut));
     baker->setFormat(formatName.c_str());
     baker->setInputSpace(kInput);

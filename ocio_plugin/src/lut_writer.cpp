@@ -160,11 +160,11 @@ std::string lutText(const LutFormat& format, const OCIO::ConstGroupTransformRcPt
   if (format.content == Content::Curves) {
     return spi1dText(curves(group, shaperSize > 0 ? shaperSize : kCurveEntries));
   }
+  const OCIO::ConstLut1DTransformRcPtr curve = format.holdsPrelut ? leadingPrelut(group) : nullptr;
   if (format.extension != ".cube" && format.name != "spi3d") {
-    return bakerText(format.name, group, size, shaperSize, description);
+    return bakerText(format.name, group, curve, size, shaperSize, description);
   }
   if (format.name == "resolve_cube") {
-    const auto curve = leadingPrelut(group);
     return resolveCubeText(entriesOf(curve), tabulated(curve ? withoutFirst(group) : group, size), size, description);
   }
   const std::vector<float> nodes = tabulated(group, size);

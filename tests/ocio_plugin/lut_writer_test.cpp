@@ -155,6 +155,15 @@ TEST(CubeTest, PrelutsAreKept) {
                 .find("LUT_1D_SIZE 1000\nLUT_1D_INPUT_RANGE 0.0 1.0\nLUT_3D_SIZE 17\n"),
             std::string::npos);
 
+  // Without a place for it, it is part of what is tabulated.
+  auto whole = OCIO::GroupTransform::Create();
+  whole->appendTransform(group);
+  for (const LutFormat& format : lutFormats()) {
+    if (format.content == LutFormat::Content::Cube && !format.holdsPrelut) {
+      EXPECT_EQ(lutText(format, group, kSize, description), lutText(format, whole, kSize, description)) << format.name;
+    }
+  }
+
   curve->setValue(999, 0.9F, 0.9F, 0.9F);
   EXPECT_EQ(lutText(lutFormat("a.cube", "resolve_cube"), group, kSize, description).find("LUT_1D"), std::string::npos);
 }
