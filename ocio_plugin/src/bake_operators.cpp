@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
+#include "in_order.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/spectral/input_error.h"
 #include "prelut.h"
@@ -40,16 +40,6 @@ sip::ErrorProtocol::Options cubeProbes(spectral::LogEncoding encoding) {
   probes.lowestStop = -kCubeStops;
   probes.highestStop = std::min(kCubeStops, static_cast<int>(std::floor(stops)) - 2);
   return probes;
-}
-
-OCIO::GroupTransformRcPtr inOrder(std::initializer_list<OCIO::ConstTransformRcPtr> transforms) {
-  auto group = OCIO::GroupTransform::Create();
-  for (const auto& transform : transforms) {
-    if (transform) {
-      group->appendTransform(transform->createEditableCopy());
-    }
-  }
-  return group;
 }
 
 /// The signal of a cube: the space's own pixels where they are a log signal, else those through the shaper.

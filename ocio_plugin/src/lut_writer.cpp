@@ -6,6 +6,7 @@
 
 #include "baker_text.h"
 #include "cube_text.h"
+#include "grey_ramp.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
@@ -67,13 +68,7 @@ std::vector<float> curves(const OCIO::ConstGroupTransformRcPtr& group, int count
     throw InputError("", "format", "spi1d",
                      "holds curves, and this transform mixes channels; name a format with a 3-D table");
   }
-  std::vector<float> entries;
-  for (int k = 0; k < count; ++k) {
-    const auto at = static_cast<float>(static_cast<double>(k) / (count - 1));
-    entries.insert(entries.end(), {at, at, at, 1.0F});
-  }
-  PixelProcessor(group).apply(entries);
-  return entries;
+  return greyRamp(group, count);
 }
 
 /// OCIO's own writer, for operators.

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "metamer/ocio/pixel_processor.h"
+#include "grey_ramp.h"
+#include "in_order.h"
 
 namespace metamer::ocio {
 namespace {
@@ -20,13 +21,7 @@ constexpr double kCellsBelowBlack = 1.0;
 
 /// The light of grey signals, evenly spread over 0 ... 1.
 std::vector<double> lightOfSignals(const Signal& signal, int count) {
-  std::vector<float> rgba;
-  rgba.reserve(4 * static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    const auto at = static_cast<float>(static_cast<double>(k) / (count - 1));
-    rgba.insert(rgba.end(), {at, at, at, 1.0F});
-  }
-  PixelProcessor(signal.toEngine).apply(rgba);
+  const std::vector<float> rgba = greyRamp(signal.toEngine, count);
   std::vector<double> light;
   light.reserve(static_cast<std::size_t>(count));
   for (std::size_t at = 1; at < rgba.size(); at += 4) {
@@ -58,13 +53,7 @@ OCIO::Lut1DTransformRcPtr prelut(const Signal& signal, int size, double lowestSt
 Signal behindPrelut(const Signal& signal, const OCIO::ConstTransformRcPtr& prelut) {
   const OCIO::TransformRcPtr back = prelut->createEditableCopy();
   back->setDirection(OCIO::TRANSFORM_DIR_INVERSE);
-  auto toEngine = OCIO::GroupTransform::Create();
-  toEngine->appendTransform(back);
-  toEngine->appendTransform(signal.toEngine->createEditableCopy());
-  auto fromEngine = OCIO::GroupTransform::Create();
-  fromEngine->appendTransform(signal.fromEngine->createEditableCopy());
-  fromEngine->appendTransform(prelut->createEditableCopy());
-  return {toEngine, fromEngine};
+  return {inOrder({back, signal.toEngine}), inOrder({signal.fromEngine, prelut})};
 }
 
 OCIO::ConstLut1DTransformRcPtr leadingPrelut(const OCIO::ConstGroupTransformRcPtr& group) {
