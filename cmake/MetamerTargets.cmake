@@ -23,18 +23,21 @@ if(METAMER_COVERAGE)
   target_link_options(metamer_build_flags INTERFACE -fprofile-instr-generate)
 endif()
 
-# metamer_library(<folder> SOURCES ... [PUBLIC targets...] [PRIVATE targets...])
-# The library of one folder: headers in <folder>/include, sources in <folder>/src, alias metamer::<folder>.
+# metamer_library(<folder> [PUBLIC targets...] [PRIVATE targets...])
+# The library of one folder, alias metamer::<folder>: headers in <folder>/include, sources in the rooms <folder>/src/*,
+# which include each other's headers as "room/name.h".
 function(metamer_library folder)
-  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
   set(target metamer_${folder})
-  add_library(${target} STATIC ${arg_SOURCES})
+  file(GLOB sources CONFIGURE_DEPENDS src/*/*.cpp)
+  add_library(${target} STATIC ${sources})
   add_library(metamer::${folder} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(${target} PRIVATE src)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:metamer_build_flags>)
   install(TARGETS ${target} EXPORT metamerTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

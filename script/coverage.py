@@ -15,7 +15,7 @@ from pathlib import Path
 REPOSITORY = Path(__file__).resolve().parent.parent
 BUILD = REPOSITORY / "build" / "coverage"
 OUT = REPOSITORY / "out" / "coverage"
-FOLDERS = ("spectral", "sip", "ocio_plugin", "lutgen", "ofx", "spectral_ref")
+FOLDERS = ("spectral", "sip", "stage", "ocio_plugin", "lutgen", "ofx", "spectral_ref")
 # Not ours to cover: tests, and what is included from elsewhere.
 OTHERS = r"/tests/|^/usr/|/\.cargo/"
 # Called, but leaves no counts: another program takes the process's place before they are written.

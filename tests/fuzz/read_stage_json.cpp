@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "effects/stage_file.h"
 #include "refusal.h"
-#include "stage_file.h"
 
 /// Whatever the bytes are, they are finite matrices for the plug-in, or one short line of error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sip_fixture.h"
+#include "sip/sip_fixture.h"
 
 #include <algorithm>
 #include <random>

@@ -14,6 +14,7 @@ namespace metamer::sip {
 
 using spectral::errorOf;
 using spectral::testLibrary;
+using spectral::unitRandom;
 
 /// The six pairs of lights that every accuracy figure is given for.
 const std::vector<std::pair<std::string, std::string>>& lightPairs();
@@ -33,10 +34,5 @@ Eigen::Matrix3Xd normalisedWeights(const std::string& light, int bandCount);
 /// A few hundred colours that reflectances can make, by mixing blocks of bands; the same ones every run. Many lie close
 /// to the locus.
 std::vector<Eigen::Vector3d> feasibleTristimuli(const Eigen::Matrix3Xd& weights, int count, unsigned seed = 1);
-
-/// 0 ... 1, the same on every platform (the standard's distributions are not).
-inline double unitRandom(std::mt19937& random) {
-  return static_cast<double>(random()) / 4294967296.0;
-}
 
 }  // namespace metamer::sip

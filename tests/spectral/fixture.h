@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,11 @@ std::string errorOf(const Call& call) {
     return error.what();
   }
   return "no InputError";
+}
+
+/// 0 ... 1, the same on every platform (the standard's distributions are not).
+inline double unitRandom(std::mt19937& random) {
+  return static_cast<double>(random()) / 4294967296.0;
 }
 
 }  // namespace metamer::spectral

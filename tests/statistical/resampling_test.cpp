@@ -6,12 +6,12 @@
 #include <numeric>
 #include <random>
 
-#include "light_cuts.h"
-#include "material_table.h"
-#include "reservoir.h"
+#include "integrator/reservoir.h"
+#include "lights/light_cuts.h"
+#include "materials/material_table.h"
 #include "spectral_ref/scene_fixture.h"
 #include "statistical/chi_square.h"
-#include "wavelength_sampling.h"
+#include "wavelengths/wavelength_sampling.h"
 
 namespace metamer::spectral_ref {
 namespace {

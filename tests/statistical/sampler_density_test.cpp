@@ -6,13 +6,13 @@
 #include <cmath>
 #include <random>
 
-#include "film_sensor.h"
-#include "light_table.h"
-#include "material_table.h"
+#include "film/film_sensor.h"
+#include "lights/light_table.h"
+#include "materials/material_table.h"
 #include "spectral_ref/scene_fixture.h"
 #include "statistical/chi_square.h"
-#include "wavelength_guide.h"
-#include "wavelength_sampling.h"
+#include "wavelengths/wavelength_guide.h"
+#include "wavelengths/wavelength_sampling.h"
 
 namespace metamer::spectral_ref {
 namespace {

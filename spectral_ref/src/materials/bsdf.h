@@ -3,8 +3,8 @@
 
 #include <type_traits>
 
-#include "geometry.h"
-#include "lanes.h"
+#include "geometry/geometry.h"
+#include "wavelengths/lanes.h"
 
 namespace metamer::spectral_ref {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "lanes.h"
 #include "materials/bsdf.h"
 #include "materials/ggx.h"
+#include "wavelengths/lanes.h"
 
 namespace metamer::spectral_ref {
 

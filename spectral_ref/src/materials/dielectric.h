@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "lanes.h"
 #include "materials/bsdf.h"
 #include "materials/ggx.h"
+#include "wavelengths/lanes.h"
 
 namespace metamer::spectral_ref {
 

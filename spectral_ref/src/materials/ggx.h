@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry.h"
+#include "geometry/geometry.h"
 
 namespace metamer::spectral_ref {
 

@@ -43,8 +43,4 @@ std::vector<Spectrum> readRawtoacesJson(const std::string& text, const std::stri
 /// The whole of a regular file as bytes. @throws InputError (missing, a folder, unreadable, over kLargestFileBytes)
 std::string readTextFile(const std::filesystem::path& file);
 
-/// The text without a UTF-8 byte order mark.
-/// @throws InputError where it is UTF-16 or UTF-32, holds a NUL, or is not UTF-8
-std::string_view checkedUtf8(std::string_view text, const std::string& where);
-
 }  // namespace metamer::spectral

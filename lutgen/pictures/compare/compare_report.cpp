@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compare/compare_report.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+#include <sstream>
+
+namespace metamer::lutgen {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+  std::array<char, 256> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+/// Four digits behind the point; text where JSON has no number.
+Json rounded(double value) {
+  return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4) : Json("infinite");
+}
+
+const sip::ComparedColour* worstOf(const CompareReport& report) {
+  const sip::Comparison& comparison = report.comparison;
+  return comparison.colours.empty() ? nullptr : &comparison.colours[comparison.worst];
+}
+
+std::string worstText(const CompareReport& report) {
+  const sip::ComparedColour* worst = worstOf(report);
+  if (worst == nullptr) {
+    return "none";
+  }
+  return formatted("%s at %+.4g stops, rgb %.5g %.5g %.5g", worst->name.c_str(), worst->stop, worst->rgb[0],
+                   worst->rgb[1], worst->rgb[2]);
+}
+
+std::string verdict(const CompareReport& report) {
+  return formatted("%s CIEDE2000 %.4f, tolerance %.4f", report.statistic.c_str(), report.figure(), *report.tolerance);
+}
+
+}  // namespace
+
+double CompareReport::figure() const {
+  return statistic == "mean" ? comparison.mean : statistic == "max" ? comparison.max : comparison.p99;
+}
+
+std::string textOf(const CompareReport& report) {
+  const sip::Comparison& comparison = report.comparison;
+  std::string text = "A: " + report.kindA + " " + report.nameA + "\nB: " + report.kindB + " " + report.nameB + "\n";
+  text += formatted("CIEDE2000: mean %.4f, p99 %.4f, max %.4f over %zu colours, linear ", comparison.mean,
+                    comparison.p99, comparison.max, comparison.colours.size()) +
+          report.space + "\n";
+  text += "worst: " + worstText(report) + "\n";
+  if (report.tolerance) {
+    text += std::string(report.passes() ? "passed: " : "EXCEEDED: ") + verdict(report) + "\n";
+  }
+  return text;
+}
+
+std::string jsonOf(const CompareReport& report) {
+  const sip::Comparison& comparison = report.comparison;
+  Json document = {{"metamer_comparison", 1},
+                   {"tool", {{"name", "metamer"}, {"version", METAMER_VERSION}}},
+                   {"a", {{"kind", report.kindA}, {"name", report.nameA}}},
+                   {"b", {{"kind", report.kindB}, {"name", report.nameB}}},
+                   {"space", report.space},
+                   {"error",
+                    {{"metric", "CIEDE2000"},
+                     {"mean", rounded(comparison.mean)},
+                     {"p99", rounded(comparison.p99)},
+                     {"max", rounded(comparison.max)},
+                     {"count", comparison.colours.size()}}}};
+  if (const sip::ComparedColour* worst = worstOf(report)) {
+    document["error"]["worst"] = {{"name", worst->name},
+                                  {"stop", rounded(worst->stop)},
+                                  {"rgb", {rounded(worst->rgb[0]), rounded(worst->rgb[1]), rounded(worst->rgb[2])}}};
+  }
+  if (report.tolerance) {
+    document["tolerance"] = {
+        {"statistic", report.statistic}, {"value", *report.tolerance}, {"passed", report.passes()}};
+  }
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string junitOf(const CompareReport& report) {
+  pugi::xml_document document;
+  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  const int failures = report.passes() ? 0 : 1;
+  pugi::xml_node suites = document.append_child("testsuites");
+  pugi::xml_node suite = suites.append_child("testsuite");
+  suite.append_attribute("name") = "lutgen compare";
+  suite.append_attribute("tests") = 1;
+  suite.append_attribute("failures") = failures;
+  suite.append_attribute("errors") = 0;
+  pugi::xml_node test = suite.append_child("testcase");
+  test.append_attribute("classname") = "metamer.compare";
+  test.append_attribute("name") = (report.nameA + " against " + report.nameB).c_str();
+  if (!report.passes()) {
+    pugi::xml_node failure = test.append_child("failure");
+    failure.append_attribute("message") = verdict(report).c_str();
+    failure.append_attribute("type") = "tolerance";
+    failure.text() = textOf(report).c_str();
+  }
+  test.append_child("system-out").text() = textOf(report).c_str();
+  std::ostringstream text;
+  document.save(text, "  ", pugi::format_default, pugi::encoding_utf8);
+  return std::move(text).str();
+}
+
+}  // namespace metamer::lutgen

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "metamer/ocio/stage_config.h"
+#include "metamer/spectral/pending_file.h"
+#include "stage/chart_figure.h"
+#include "stage/stage_capture.h"
+#include "stage/stage_commands.h"
+#include "stage/stage_json.h"
+#include "stage/stage_report.h"
+#include "stage/stage_result.h"
+
+namespace metamer::lutgen {
+namespace {
+
+struct SolveOptions {
+  std::string stage;
+  std::string output;
+  std::string report;
+  std::string figure;
+  std::string luts;
+  std::string config;
+  std::string base;
+  std::string checkPictures;
+};
+
+ocio::StageMatrices matricesOf(const StageResult& result) {
+  return {result.name,
+          result.solution.wallFromContent,
+          result.solution.frustumFromContent,
+          result.solution.frustumOffset,
+          result.solution.correctedFromCamera,
+          result.capture.xyzFromCamera,
+          result.capture.xyzFromCamera * result.capture.cameraWhite};
+}
+
+void writeFigure(const StageResult& result, const spectral::DataLibrary& library, const std::string& file) {
+  const auto display = library.colourSpace("Rec.709").linear;
+  writeChartFigure(
+      {{result.capture.wall.target, result.exposure * result.solution.predicted},
+       {result.capture.wall.target, result.solution.corrected}},
+      result.capture.columns,
+      displayFromCamera(result.capture.xyzFromCamera, result.whiteRgb, display.rgbFromXyz(), display.whiteXyz()), file);
+}
+
+void solve(const SolveOptions& options) {
+  const auto library = spectral::DataLibrary::openDefault();
+  const StageResult result = solveStage(stage::readStage(options.stage), library, options.checkPictures);
+  if (!options.config.empty()) {
+    spectral::writeWholeFile(options.config,
+                             ocio::stageConfigText(matricesOf(result), library, options.config, options.base));
+  }
+  if (!options.luts.empty()) {
+    ocio::writeStageFiles(matricesOf(result), options.luts);
+  }
+  if (!options.figure.empty()) {
+    writeFigure(result, library, options.figure);
+  }
+  if (!options.report.empty()) {
+    const std::string figure = relativeTo(options.report, options.figure);
+    spectral::writeWholeFile(options.report, reportOf(result, figure));
+  }
+  writeJson(options.output, toJson(result));
+  std::cout << summaryOf(result);
+}
+
+}  // namespace
+
+void addStageSolve(CLI::App& stage) {
+  CLI::App* command = stage.add_subcommand("solve", "Solve an RGB wall: M, Q, N and the black offset");
+  const auto options = std::make_shared<SolveOptions>();
+  command->add_option("STAGE", options->stage, "Stage file (.yaml): captures, or spectra")->required();
+  command->add_option("-o,--output", options->output, "JSON to write: the matrices and every patch")->required();
+  command->add_option("--report", options->report, "Markdown to write, for people");
+  command->add_option("--figure", options->figure, "PNG to write: the chart as squares in squares");
+  command->add_option("--check-pictures", options->checkPictures,
+                      "PREFIX of pictures to write: the charts' pictures with the sampled squares drawn in");
+  command->add_option("--luts", options->luts,
+                      "PREFIX of transforms to write: PREFIX_out_of_frustum, _in_frustum and _post_correction, each "
+                      "as .spimtx, .clf and .ctf");
+  CLI::Option* config =
+      command->add_option("--config", options->config, "OCIO config to write: the wall's spaces and the camera's look");
+  command->add_option("--base", options->base, "OCIO config to add them to; a new one by default")->needs(config);
+  command->callback([options] { solve(*options); });
+}
+
+}  // namespace metamer::lutgen

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "metamer/sip/pipeline.h"
+#include "validate/validation.h"
+#include "validate/validation_scenes.h"
+
+namespace metamer::lutgen {
+
+/// Renders what a stage's calibration takes (the chart under each channel's square, and in the real place: an even
+/// sphere of the pipeline's light), solves M, Q and N, and renders the chart inside the driven wall.
+WallValidation validateWall(const Chart& chart, const sip::PreparedPipeline& realPlace,
+                            const spectral::Observer& camera, const std::array<spectral::DomainSamples, 3>& walls,
+                            const ValidationOptions& options);
+
+}  // namespace metamer::lutgen

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bake/bake_operators.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cube/prelut.h"
+#include "metamer/ocio/shaper.h"
+#include "metamer/spectral/input_error.h"
+#include "operators/in_order.h"
+
+namespace metamer::ocio {
+namespace {
+
+using spectral::InputError;
+
+/// Bands of the engine behind a baked transform: p99 within 0.13 CIEDE2000 of 401 bands on spiky lamps, 0.05 on others.
+constexpr int kBakeBandCount = 161;
+constexpr int kChainSize = 65;
+constexpr int kCubeSize = 33;
+/// The exposures a cube is judged on: what log footage carries, short of the shaper's last two stops.
+constexpr int kCubeStops = 7;
+
+/// The log curve of a cube's signal: the space's own, else the shaper.
+spectral::LogEncoding cubeEncoding(const WorkingSpace& space, const BakeOptions& options) {
+  if (space.encoding) {
+    if (options.shaper && *options.shaper != *space.encoding) {
+      throw InputError("", "shaper", spectral::nameOf(*options.shaper),
+                       space.name + " is a log space already; leave the shaper out");
+    }
+    return *space.encoding;
+  }
+  return options.shaper.value_or(spectral::LogEncoding::AcesCct);
+}
+
+sip::ErrorProtocol::Options cubeProbes(spectral::LogEncoding encoding) {
+  const double stops = std::log2(spectral::decode(encoding, 1.0) / 0.18);
+  sip::ErrorProtocol::Options probes;
+  probes.insideGamutOnly = true;
+  probes.lowestStop = -kCubeStops;
+  probes.highestStop = std::min(kCubeStops, static_cast<int>(std::floor(stops)) - 2);
+  return probes;
+}
+
+/// The signal of a cube: the space's own pixels where they are a log signal, else those through the shaper.
+Signal cubeSignal(const WorkingSpace& space, spectral::LogEncoding encoding) {
+  if (space.isLog) {
+    return {space.toEngine, space.fromEngine};
+  }
+  return {inOrder({shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE), space.toEngine}),
+          inOrder({space.fromEngine, shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD)})};
+}
+
+}  // namespace
+
+Prepared prepare(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options) {
+  WorkingSpace space = findWorkingSpace(recipe.space, library, options.config);
+  sip::TransformSpec spec = sip::resolve(recipe, library, space.engine);
+  sip::SpectralTransform transform(spec, kBakeBandCount);
+  return {std::move(space), std::move(spec), std::move(transform)};
+}
+
+int tableSize(const BakeOptions& options, Representation representation) {
+  if (options.size != 0 && (options.size < kSmallestTable || options.size > kLargestTable)) {
+    throw InputError("", "size", std::to_string(options.size),
+                     "must be from " + std::to_string(kSmallestTable) + " to " + std::to_string(kLargestTable));
+  }
+  switch (representation) {
+    case Representation::Identity:
+    case Representation::Matrix:
+      return 0;
+    case Representation::LogCube:
+      return options.size != 0 ? options.size : kCubeSize;
+    case Representation::ExposureInvariantChain:
+      return options.size != 0 ? options.size : kChainSize;
+  }
+  return 0;
+}
+
+bool holdsChain(const LutFormat& format) {
+  // CLF has no operator for chromaticities.
+  return format.content == LutFormat::Content::Operators && format.extension != ".clf";
+}
+
+/// The gamut and exposures that a format is judged over.
+sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& prepared, const BakeOptions& options) {
+  const bool isTable = options.representation.value_or(Representation::Identity) == Representation::LogCube;
+  sip::ErrorProtocol::Options probes;
+  if (isTable || !holdsChain(format)) {
+    const WorkingSpace& space = prepared.space;
+    if (!space.isLog && !space.isLinear) {
+      throw InputError("", "space", space.name,
+                       "is neither linear nor log, which a table needs; name a log space, or write .ctf");
+    }
+    probes = cubeProbes(cubeEncoding(space, options));
+  }
+  probes.lowestStop = options.lowestStop.value_or(probes.lowestStop);
+  probes.highestStop = options.highestStop.value_or(probes.highestStop);
+  constexpr int kMostStops = 24;
+  if (probes.lowestStop > probes.highestStop || probes.lowestStop < -kMostStops || probes.highestStop > kMostStops) {
+    throw InputError("", "stops", std::to_string(probes.lowestStop) + ":" + std::to_string(probes.highestStop),
+                     "must rise, from -24 to 24");
+  }
+  return probes;
+}
+
+Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, const LutFormat& format,
+                       Representation representation, Certificate& certificate) {
+  const WorkingSpace& space = prepared.space;
+  const bool isCube = format.content != LutFormat::Content::Operators;
+  certificate.representation = representation;
+  certificate.fitted = options.fitted;
+  certificate.negativesKept = format.holdsNegatives;
+  certificate.prelutSize = 0;
+  certificate.size = tableSize(options, isCube ? Representation::LogCube : representation);
+  if (!isCube && representation != Representation::LogCube) {
+    return {space.wrapped(engineOperators(representation, prepared.spec, prepared.transform, certificate.size)),
+            space.fromEngine, space.toEngine};
+  }
+  const spectral::LogEncoding encoding = cubeEncoding(space, options);
+  const Signal signal = cubeSignal(space, encoding);
+  certificate.shaper = space.isLog ? space.name : spectral::nameOf(encoding);
+  OCIO::GroupTransformRcPtr onSignal = inOrder({});
+  if (representation == Representation::LogCube) {
+    OCIO::ConstTransformRcPtr curve;
+    if (options.fitted && format.holdsPrelut && certificate.size >= kPrelutFromSize) {
+      certificate.prelutSize = options.shaperSize != 0 ? options.shaperSize : kPrelutEntries;
+      curve = prelut(signal, certificate.size, certificate.probes.lowestStop, certificate.prelutSize);
+    }
+    const auto table = logCube(prepared.transform, signal,
+                               {.size = certificate.size,
+                                .fitted = options.fitted,
+                                .lowestStop = static_cast<double>(certificate.probes.lowestStop),
+                                .highestStop = static_cast<double>(certificate.probes.highestStop),
+                                .belowZero = format.holdsNegatives,
+                                .prelut = curve});
+    onSignal = inOrder({curve, table});
+  } else if (representation != Representation::Identity) {
+    onSignal =
+        inOrder({signal.toEngine, engineOperators(representation, prepared.spec, prepared.transform, certificate.size),
+                 signal.fromEngine});
+  }
+  if (isCube || space.isLog) {
+    return {onSignal, signal.fromEngine, signal.toEngine};
+  }
+  return {inOrder({shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD), onSignal,
+                   shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE)}),
+          space.fromEngine, space.toEngine};
+}
+
+}  // namespace metamer::ocio

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/ocio/config_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "config/config_base.h"
+#include "config/config_cores.h"
+#include "config/config_document.h"
+#include "config/config_items.h"
+#include "config/config_loader.h"
+#include "config/new_config.h"
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/text.h"
+
+namespace metamer::ocio {
+namespace {
+
+using spectral::InputError;
+namespace fs = std::filesystem;
+
+/// The LUT folder, removed again where it was made for nothing.
+class LutFolder {
+ public:
+  explicit LutFolder(fs::path path) : m_path(std::move(path)) {
+    std::error_code failure;
+    m_isNew = fs::create_directory(m_path, failure);
+    if (failure || !fs::is_directory(m_path, failure)) {
+      throw InputError(m_path.string(), "LUT folder", "",
+                       "cannot be made; choose a folder that is there and writable for the config");
+    }
+  }
+  ~LutFolder() {
+    if (m_isNew) {
+      std::error_code none;
+      fs::remove(m_path, none);  // only where it is empty
+    }
+  }
+  LutFolder(const LutFolder&) = delete;
+  LutFolder& operator=(const LutFolder&) = delete;
+  const fs::path& path() const { return m_path; }
+
+ private:
+  fs::path m_path;
+  bool m_isNew = false;
+};
+
+/// OCIO takes lists of looks apart at these, and puts variables in for the last.
+void checkNames(const std::vector<sip::Recipe>& recipes, const ConfigFacts& facts, const std::string& where) {
+  std::set<std::string> given;
+  for (const sip::Recipe& recipe : recipes) {
+    const std::string& name = recipe.name;
+    const bool hasControl = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; });
+    if (name.empty() || hasControl || name.find_first_of(",:|/\\%$+\"") != std::string::npos || name.front() == '-' ||
+        name.front() == ' ' || name.back() == ' ') {
+      throw InputError("recipe", "name", name,
+                       "cannot be the name of a look: leave out , : | / \\ % $ + \" and a leading -");
+    }
+    if (!given.insert(spectral::lowerCase(name)).second) {
+      throw InputError("recipe", "name", name, "is the name of another recipe too; give each its own");
+    }
+    if (facts.looks.count(spectral::lowerCase(name)) != 0) {
+      throw InputError(where, "look", name, "is there already; rename the recipe, or take the look out of the base");
+    }
+    // OCIO keeps looks and named transforms apart from each other and from everything that is converted.
+    for (const std::string& taken : {name, namedTransformName(name)}) {
+      if (facts.taken.count(spectral::lowerCase(taken)) != 0 ||
+          (taken != name && facts.looks.count(spectral::lowerCase(taken)) != 0)) {
+        throw InputError(where, "name", taken,
+                         "is that of a colour space, role, look or named transform of the config; rename the recipe");
+      }
+    }
+  }
+}
+
+/// A name as that of a file: letters, digits, dot, dash and underscore.
+std::string fileName(const std::string& name) {
+  std::string file;
+  for (const char c : name) {
+    const bool isPlain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+                         c == '-' || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+    file += isPlain ? c : '_';
+  }
+  return file.front() == '.' ? "_" + file : file;
+}
+
+/// A file that somebody else put there stays.
+void refuseForeign(const fs::path& file, const std::string& mark) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string head(512, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (stream.gcount() > 0 && head.find(mark) == std::string::npos) {
+    throw InputError(file.string(), "output", "", "is there and not metamer's; name another --lut-folder");
+  }
+}
+
+std::string familyOf(const sip::Recipe& recipe, const std::string& family, char separator) {
+  const auto filters = [](const sip::RecipePipeline& pipeline) {
+    std::string text;
+    for (const auto& filter : pipeline.filters) {
+      text += filter.name + ":" + std::to_string(filter.density) + "\n";
+    }
+    return text;
+  };
+  std::string kind = "Scene";
+  if (spectral::lowerCase(recipe.input.illuminant) != spectral::lowerCase(recipe.output.illuminant)) {
+    const fs::path light(recipe.input.illuminant);
+    kind = std::string("Light") + separator + (light.is_absolute() ? light.stem().string() : light.string());
+  } else if (filters(recipe.input) != filters(recipe.output)) {
+    kind = "Filter";
+  } else if (spectral::lowerCase(recipe.input.observer) != spectral::lowerCase(recipe.output.observer)) {
+    kind = "Observer";
+  }
+  return family + separator + kind;
+}
+
+std::string lightOf(const sip::RecipePipeline& pipeline) {
+  const auto name = [](const std::string& nameOrFile) { return fs::path(nameOrFile).filename().string(); };
+  std::string text = name(pipeline.illuminant);
+  for (const auto& filter : pipeline.filters) {
+    std::array<char, 32> density{};
+    std::snprintf(density.data(), density.size(), ":%g", filter.density);
+    text += " through " + name(filter.name) + density.data();
+  }
+  return text + ", " + name(pipeline.observer);
+}
+
+/// What it does, and how well, in four lines; the certificate says more.
+std::string descriptionOf(const ConfigEntry& entry) {
+  const Certificate& certificate = entry.certificate;
+  const sip::ErrorProtocol::Report& error = certificate.error;
+  std::array<char, 200> figures{};
+  std::snprintf(figures.data(), figures.size(),
+                "CIEDE2000 against the spectral engine: mean %.2f, p99 %.2f, max %.2f, stops %+d to %+d", error.mean,
+                error.p99, error.max, certificate.probes.lowestStop, certificate.probes.highestStop);
+  std::array<char, 64> adaptation{};
+  std::snprintf(adaptation.data(), adaptation.size(), "adaptation %g, ", certificate.recipe.adaptation);
+  return "From " + lightOf(certificate.recipe.input) + "\nto " + lightOf(certificate.recipe.output) + "\n" +
+         adaptation.data() + nameOf(certificate.representation) +
+         (certificate.size > 0 ? " of " + std::to_string(certificate.size) : "") + ", metamer " + toolVersion() + "\n" +
+         figures.data() + "\n";
+}
+
+}  // namespace
+
+ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral::DataLibrary& library,
+                         const fs::path& file, const ConfigOptions& options) {
+  if (options.lutFolder.empty() || fs::path(options.lutFolder).filename() != options.lutFolder ||
+      options.lutFolder.find_first_of(":;$% ") != std::string::npos || options.lutFolder.front() == '.') {
+    throw InputError("", "LUT folder", options.lutFolder, "must be one name, of a folder beside the config");
+  }
+  const ConfigDocument document =
+      options.base.empty() ? ConfigDocument(newConfigText(options.name.empty() ? file.stem().string() : options.name,
+                                                          options.description, options.lutFolder, library),
+                                            file.string())
+                           : openBaseConfig(options.base, file);
+  const ConfigFacts& facts = document.facts();
+  const std::string where = options.base.empty() ? file.string() : options.base.string();
+  checkNames(recipes, facts, where);
+
+  // The places first: what cannot be written is not worth the work.
+  spectral::PendingFile config(file);
+  const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+  const LutFolder lutFolder(folder / options.lutFolder);
+  if (!options.base.empty()) {
+    checkLoads(document.with("", "", ""), facts, folder, {}, where);
+  }
+
+  const LutPlace place = placeOfLuts(facts, options.lutFolder);
+  ConfigReport report;
+  std::vector<ConfigItem> items;
+  std::vector<ConfigItem> pendingItems;  // the same with the files' names of now, to be loaded
+  std::vector<std::unique_ptr<spectral::PendingFile>> pending;
+  for (const ConfigCore& core : coresOf(recipes, facts, library, where)) {
+    const BakedCore baked = bakeCore(core, library, options.size, options.tolerance, lutFolder.path());
+    const std::string lutName = fileName(core.name) + ".ctf";
+    std::string pendingName;
+    fs::path lutPath;
+    if (!baked.lutText.empty()) {
+      refuseForeign(lutFolder.path() / lutName, "metamer");
+      refuseShadows(facts, place.prefix + lutName, options.lutFolder, file);
+      pending.push_back(std::make_unique<spectral::PendingFile>(lutFolder.path() / lutName));
+      pending.back()->write(baked.lutText);
+      lutPath = pending.back()->path();
+      pendingName = lutPath.filename().string();
+    }
+    for (const CoreUse& use : core.uses) {
+      ConfigEntry entry;
+      entry.name = use.recipe.name;
+      entry.processSpace = core.processSpace;
+      entry.pixelSpace = use.pixelSpace;
+      entry.file = baked.lutText.empty() ? "" : options.lutFolder + "/" + lutName;
+      const std::vector<ConfigStep> steps = stepsOf(core, use, baked, place.prefix + lutName, library);
+      entry.certificate = certificateOf(core, use, baked, lutPath, library);
+
+      ConfigItem item{entry.name,
+                      entry.processSpace,
+                      entry.pixelSpace,
+                      familyOf(use.recipe, options.family, facts.familySeparator),
+                      use.encoding,
+                      descriptionOf(entry),
+                      steps};
+      items.push_back(item);
+      for (ConfigStep& step : item.steps) {
+        if (std::holds_alternative<std::string>(step)) {
+          step = place.prefix + pendingName;
+        }
+      }
+      pendingItems.push_back(std::move(item));
+
+      const std::string jsonName = fileName(entry.name) + ".json";
+      refuseForeign(lutFolder.path() / jsonName, "metamer_certificate");
+      pending.push_back(std::make_unique<spectral::PendingFile>(lutFolder.path() / jsonName));
+      pending.back()->write(entry.certificate.json());
+      report.entries.push_back(std::move(entry));
+    }
+  }
+  const std::string trial =
+      document.with(looksYaml(pendingItems), namedTransformsYaml(pendingItems), place.searchFolder);
+  report.isLoaded = checkLoads(trial, facts, folder, pendingItems, where);
+  report.majorVersion = facts.majorVersion;
+  report.minorVersion = facts.minorVersion;
+  config.write(document.with(looksYaml(items), namedTransformsYaml(items), place.searchFolder));
+  for (const auto& one : pending) {
+    one->commit();
+  }
+  config.commit();
+  return report;
+}
+
+}  // namespace metamer::ocio

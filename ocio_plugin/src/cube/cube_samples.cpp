@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cube/cube_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "metamer/ocio/pixel_processor.h"
+#include "metamer/spectral/colorimetry.h"
+#include "operators/parallel.h"
+#include "operators/perceptual_form.h"
+
+namespace metamer::ocio {
+namespace {
+
+constexpr double kLuminance = 0.18;
+/// Chromaticities, and exposures of each a stop.
+constexpr int kChromaticityCount = 12000;
+constexpr int kExposuresPerStop = 1;
+/// Stops beyond the range that samples reach. Half a stop, so that what is judged at a stop lies in the middle of what
+/// is fitted, and some more: the ends, of which the dark one is the hardest, else lie at the border of what is weighed.
+constexpr double kBeyond = 0.8;
+/// Chromaticities a task.
+constexpr int kBlock = 250;
+/// Step of the signal to see its slope by, and of light to see CIEDE2000's.
+constexpr float kSignalStep = 1.0F / 2048;
+constexpr double kLightStep = 1e-3;
+
+/// Plastic constant: Roberts' R2 sequence.
+constexpr double kPlastic = 1.32471795724474602596;
+constexpr double kGolden = 1.61803398874989484820;
+
+/// The k-th chromaticity of an even spread over a gamut, at the protocol's luminance.
+Eigen::Vector3d spreadColour(const spectral::RgbSpace& space, const Eigen::Matrix3d& rgbFromXyz, int k) {
+  double u = std::fmod(0.25 + (k + 1) / kPlastic, 1.0);
+  double v = std::fmod(0.75 + (k + 1) / (kPlastic * kPlastic), 1.0);
+  if (u + v > 1.0) {
+    u = 1.0 - u;
+    v = 1.0 - v;
+  }
+  const auto& [red, green, blue] = space.primaries;
+  const Eigen::Vector2d xy = red + u * (green - red) + v * (blue - red);
+  return rgbFromXyz * spectral::xyzFromChromaticity(xy, kLuminance);
+}
+
+/// One chromaticity: what goes in, what should come out, and how the eye judges deviations from it.
+struct Direction {
+  Eigen::Vector3d in;
+  Eigen::Vector3d out;
+  Eigen::Matrix3d form;
+  Eigen::Vector3f lab;
+};
+
+class Sampler {
+ public:
+  Sampler(const sip::SpectralTransform& transform, const Signal& axes, const Signal& signal, int size,
+          double lowestStop, double highestStop)
+      : m_transform(transform),
+        m_toEngine(signal.toEngine),
+        m_fromEngine(signal.fromEngine),
+        m_axesFromEngine(axes.fromEngine),
+        m_xyzFromRgb(transform.space().xyzFromRgb()),
+        m_rgbFromXyz(transform.space().rgbFromXyz()),
+        m_white(transform.whiteXyz()),
+        m_size(size),
+        m_lowest(lowestStop - kBeyond),
+        m_count(std::max(1, static_cast<int>(std::lround((highestStop + kBeyond - m_lowest) * kExposuresPerStop)))),
+        m_step((highestStop + kBeyond - m_lowest) / m_count) {}
+
+  void run(int first, int last, std::vector<CubeSample>& samples) const {
+    std::vector<Direction> directions;
+    std::vector<double> phase;
+    for (int k = first; k < last; ++k) {
+      const Eigen::Vector3d in = spreadColour(m_transform.space(), m_rgbFromXyz, k);
+      if (!in.allFinite() || in.minCoeff() < 0.0 || !m_transform.isFeasible(in)) {
+        continue;
+      }
+      const Eigen::Vector3d out = m_transform.apply(in);
+      const Eigen::Matrix3d form = perceptual(out);
+      if (out.allFinite() && form.allFinite()) {
+        directions.push_back({in, out, form, spectral::lab(m_xyzFromRgb * out, m_white).cast<float>()});
+        phase.push_back(std::fmod((k + 1) / kGolden, 1.0));
+      }
+    }
+    for (int exposure = 0; exposure < m_count; ++exposure) {
+      std::vector<double> gains;
+      gains.reserve(phase.size());
+      for (const double start : phase) {
+        gains.push_back(std::exp2(m_lowest + m_step * (exposure + std::fmod(start + exposure / kPlastic, 1.0))));
+      }
+      addExposure(directions, gains, samples);
+    }
+  }
+
+ private:
+  Eigen::Matrix3d perceptual(const Eigen::Vector3d& out) const {
+    const Eigen::Vector3d lab = spectral::lab(m_xyzFromRgb * out, m_white);
+    const double step = kLightStep * std::max(out.cwiseAbs().maxCoeff(), 1e-6);
+    return perceptualForm(
+        [&](const Eigen::Vector3d& deviation) {
+          return spectral::deltaE2000(lab, spectral::lab(m_xyzFromRgb * (out + deviation), m_white));
+        },
+        step);
+  }
+
+  void addExposure(const std::vector<Direction>& directions, const std::vector<double>& gains,
+                   std::vector<CubeSample>& samples) const {
+    const std::size_t count = directions.size();
+    std::vector<float> in;
+    std::vector<float> out;
+    const auto put = [](std::vector<float>& rgba, const Eigen::Vector3d& rgb) {
+      for (const double value : {rgb[0], rgb[1], rgb[2], 1.0}) {
+        rgba.push_back(static_cast<float>(value));
+      }
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+      put(in, gains[k] * directions[k].in);
+      put(out, gains[k] * directions[k].out);
+    }
+    m_axesFromEngine.apply(in);
+    m_fromEngine.apply(out);
+    // Slopes of light by signal, one channel of the signal moved at a time.
+    std::array<std::vector<float>, 6> moved;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        auto& pixels = moved[2 * axis + side];
+        pixels = out;
+        for (std::size_t k = 0; k < count; ++k) {
+          pixels[4 * k + axis] += side == 0 ? kSignalStep : -kSignalStep;
+        }
+        m_toEngine.apply(pixels);
+      }
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const Eigen::Map<const Eigen::Vector3f> from(in.data() + 4 * k);
+      const Eigen::Map<const Eigen::Vector3f> target(out.data() + 4 * k);
+      Eigen::Matrix3d slope;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Eigen::Map<const Eigen::Vector3f> up(moved[2 * axis].data() + 4 * k);
+        const Eigen::Map<const Eigen::Vector3f> down(moved[2 * axis + 1].data() + 4 * k);
+        slope.col(static_cast<Eigen::Index>(axis)) = (up - down).cast<double>() / (2.0 * kSignalStep * gains[k]);
+      }
+      const Eigen::Matrix3d metric = slope.transpose() * directions[k].form * slope;
+      // Beyond its ends a table clips, whatever it holds.
+      if (from.minCoeff() < 0.0F || from.maxCoeff() > 1.0F || !target.allFinite() || !metric.allFinite()) {
+        continue;
+      }
+      CubeSample sample;
+      sample.stencil = cubeStencil(from, m_size);
+      sample.target = target;
+      sample.metric = {static_cast<float>(metric(0, 0)), static_cast<float>(metric(1, 0)),
+                       static_cast<float>(metric(1, 1)), static_cast<float>(metric(2, 0)),
+                       static_cast<float>(metric(2, 1)), static_cast<float>(metric(2, 2))};
+      sample.lab = directions[k].lab;
+      sample.gain = static_cast<float>(gains[k]);
+      samples.push_back(sample);
+    }
+  }
+
+  const sip::SpectralTransform& m_transform;
+  PixelProcessor m_toEngine;
+  PixelProcessor m_fromEngine;
+  PixelProcessor m_axesFromEngine;
+  Eigen::Matrix3d m_xyzFromRgb;
+  Eigen::Matrix3d m_rgbFromXyz;
+  Eigen::Vector3d m_white;
+  int m_size;
+  double m_lowest;
+  int m_count;
+  double m_step;
+};
+
+}  // namespace
+
+void CubeJudge::errors(std::span<const CubeSample> samples, std::span<float> rgba, std::span<float> result) const {
+  m_toEngine.apply(rgba);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const Eigen::Vector3d light = Eigen::Map<const Eigen::Vector3f>(rgba.data() + 4 * k).cast<double>();
+    const Eigen::Vector3d lab = spectral::lab(m_xyzFromRgb * light / static_cast<double>(samples[k].gain), m_white);
+    const double error = spectral::deltaE2000(samples[k].lab.cast<double>(), lab);
+    result[k] = std::isfinite(error) ? static_cast<float>(error) : 0.0F;
+  }
+}
+
+std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, const Signal& axes, const Signal& signal,
+                                    int size, double lowestStop, double highestStop) {
+  const Sampler sampler(transform, axes, signal, size, lowestStop, highestStop);
+  constexpr int kBlocks = kChromaticityCount / kBlock;
+  std::vector<std::vector<CubeSample>> blocks(kBlocks);
+  parallelFor(kBlocks, [&](int block) {
+    sampler.run(block * kBlock, (block + 1) * kBlock, blocks[static_cast<std::size_t>(block)]);
+  });
+  std::size_t count = 0;
+  for (const auto& block : blocks) {
+    count += block.size();
+  }
+  // By node: what is added up lies together in memory. A counting sort, which keeps the order within a node.
+  const auto side = static_cast<std::size_t>(size);
+  std::vector<std::size_t> start(side * side * side + 1, 0);
+  for (const auto& block : blocks) {
+    for (const auto& sample : block) {
+      ++start[sample.stencil.node + 1];
+    }
+  }
+  for (std::size_t k = 1; k < start.size(); ++k) {
+    start[k] += start[k - 1];
+  }
+  std::vector<CubeSample> samples(count);
+  for (const auto& block : blocks) {
+    for (const auto& sample : block) {
+      samples[start[sample.stencil.node]++] = sample;
+    }
+  }
+  return samples;
+}
+
+}  // namespace metamer::ocio

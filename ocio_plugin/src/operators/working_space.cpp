@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/ocio/working_space.h"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "metamer/ocio/pixel_processor.h"
+#include "metamer/ocio/shaper.h"
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/near_names.h"
+#include "metamer/spectral/text.h"
+#include "operators/interchange.h"
+
+namespace metamer::ocio {
+namespace {
+
+using spectral::InputError;
+
+/// Whether a gain on the pixels is the same gain on the engine's.
+bool keepsGains(const PixelProcessor& toEngine) {
+  std::array<float, 8> pixels = {0.2F, 0.15F, 0.1F, 1.0F, 0.8F, 0.6F, 0.4F, 1.0F};
+  toEngine.apply(pixels);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(std::abs(pixels[4 + k] - 4.0F * pixels[k]) <= 1e-4F * std::abs(pixels[4 + k]))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+WorkingSpace configSpace(const std::string& name, const OCIO::ConstColorSpaceRcPtr& space,
+                         const spectral::DataLibrary& library, const OCIO::ConstConfigRcPtr& config) {
+  if (space->isData()) {
+    throw InputError("config", "space", name, "holds data, not colours; name another space");
+  }
+  if (!config->hasRole(kInterchangeRole)) {
+    throw InputError("config", "role", kInterchangeRole,
+                     "is missing; add it to the config (it names the config's ACES2065-1), or use a built-in space");
+  }
+  WorkingSpace working;
+  working.name = space->getName();
+  working.engine = library.colourSpace(kInterchangeSpace).linear;
+  try {
+    working.toEngine = config->getProcessor(space->getName(), kInterchangeRole)->createGroupTransform();
+    working.fromEngine = config->getProcessor(kInterchangeRole, space->getName())->createGroupTransform();
+  } catch (const OCIO::Exception& error) {
+    throw InputError("config", "space", name, std::string("cannot be converted: ") + error.what());
+  }
+  working.isLinear = keepsGains(PixelProcessor(working.toEngine));
+  working.isLog = !working.isLinear && spectral::lowerCase(space->getEncoding()) == "log";
+  return working;
+}
+
+}  // namespace
+
+OCIO::GroupTransformRcPtr WorkingSpace::wrapped(const OCIO::GroupTransformRcPtr& group) const {
+  if (!toEngine || group->getNumTransforms() == 0) {
+    return group;
+  }
+  auto result = OCIO::GroupTransform::Create();
+  result->appendTransform(toEngine->createEditableCopy());
+  for (int k = 0; k < group->getNumTransforms(); ++k) {
+    result->appendTransform(group->getTransform(k)->createEditableCopy());
+  }
+  result->appendTransform(fromEngine->createEditableCopy());
+  return result;
+}
+
+WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibrary& library,
+                              const OCIO::ConstConfigRcPtr& config) {
+  std::vector<std::string> known;
+  for (const auto& space : library.colourSpaces()) {
+    known.push_back(space.name);
+    if (spectral::lowerCase(space.name) == spectral::lowerCase(name)) {
+      WorkingSpace working;
+      working.name = space.name;
+      working.engine = space.linear;
+      working.encoding = space.encoding;
+      working.isLog = space.encoding.has_value();
+      working.isLinear = !working.isLog;
+      if (space.encoding) {
+        working.toEngine = shaperTransform(*space.encoding, OCIO::TRANSFORM_DIR_INVERSE);
+        working.fromEngine = shaperTransform(*space.encoding, OCIO::TRANSFORM_DIR_FORWARD);
+      }
+      return working;
+    }
+  }
+  if (config) {
+    if (const auto space = config->getColorSpace(name.c_str())) {
+      return configSpace(name, space, library, config);
+    }
+    for (int k = 0; k < config->getNumColorSpaces(); ++k) {
+      known.emplace_back(config->getColorSpaceNameByIndex(k));
+    }
+  }
+  throw InputError("", "space", name,
+                   spectral::unknownNameRemedy(name, known, "lutgen list spaces") +
+                       (config ? "" : "; for a space of a config, set $OCIO"));
+}
+
+OCIO::ConstConfigRcPtr configFromEnvironment() {
+  const char* file = std::getenv("OCIO");
+  if (file == nullptr || *file == '\0') {
+    return nullptr;
+  }
+  try {
+    return OCIO::Config::CreateFromEnv();
+  } catch (const OCIO::Exception& error) {
+    throw InputError("$OCIO", "config", file, std::string("cannot be read: ") + error.what());
+  }
+}
+
+OCIO::ConstConfigRcPtr configFromFile(const std::filesystem::path& file) {
+  try {
+    return OCIO::Config::CreateFromFile(file.string().c_str());
+  } catch (const OCIO::Exception& error) {
+    throw InputError(file.string(), "config", "", std::string("cannot be read: ") + error.what());
+  }
+}
+
+}  // namespace metamer::ocio

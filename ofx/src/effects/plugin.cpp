@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "effects/plugin.h"
+
+#include "effects/led_stage.h"
+#include "effects/spectral_transfer.h"
+
+namespace metamer::ofx {
+
+Plugin::Plugin(const OfxHost* host) : m_host(HostSuites::fetch(host)), m_catalogue(Catalogue::ofThisBundle()) {
+  m_effects.push_back(makeSpectralTransfer(m_catalogue));
+  m_effects.push_back(makeLedStage());
+}
+
+}  // namespace metamer::ofx

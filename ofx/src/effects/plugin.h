@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "effects/catalogue.h"
+#include "effects/effect.h"
+#include "host/host.h"
+
+namespace metamer::ofx {
+
+/// What lives from the first load action to the last unload action: the host's suites, the tables, the effects.
+class Plugin {
+ public:
+  /// @throws HostError where the host lacks what every effect needs
+  explicit Plugin(const OfxHost* host);
+
+  const HostSuites& host() const { return m_host; }
+  const Effect& effect(std::size_t index) const { return *m_effects[index]; }
+
+ private:
+  HostSuites m_host;
+  Catalogue m_catalogue;
+  std::vector<std::unique_ptr<Effect>> m_effects;
+};
+
+/// Identifiers by index; known before anything is loaded.
+inline constexpr int kEffectCount = 2;
+
+}  // namespace metamer::ofx

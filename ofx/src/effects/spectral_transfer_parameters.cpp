@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "effects/spectral_transfer_parameters.h"
+
+#include "effects/effect.h"
+#include "host/parameter_makers.h"
+
+namespace metamer::ofx {
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr const char* kSpectrumFiles = "CSV, IES TM-27 .spdx or rawtoaces JSON";
+
+Names withFirst(Names first, const Names& others) {
+  first.insert(first.end(), others.begin(), others.end());
+  return first;
+}
+
+/// The light of one side: what the panel shows first.
+void addLight(std::vector<Parameter>& parameters, const std::string& side, const std::string& label,
+              const std::string& what, double kelvin, const Catalogue& catalogue) {
+  parameters.push_back(makeMenu(side + kIlluminant, label + " light", "",
+                                withFirst({kBlackbody, kDaylight, kFromFile}, catalogue.illuminants), "D65",
+                                what + " A blackbody or daylight takes its temperature from the slider."));
+  parameters.push_back(makeNumber(side + kTemperature, label + " temperature", "", kelvin, {500, 100000}, {1700, 12000},
+                                  "Kelvin, of a blackbody (500 to 100000) or of CIE daylight (4000 to 25000)."));
+}
+
+/// The rest of one side, folded away.
+void addDetails(std::vector<Parameter>& parameters, const std::string& side, const std::string& label,
+                const Catalogue& catalogue) {
+  const std::string group = side + "Group";
+  parameters.push_back(makeGroup(group, label + " details", false));
+  parameters.push_back(
+      makeFile(side + kIlluminantFile, label + " light file", group,
+               std::string("Spectrum of the light, where its menu says From file: ") + kSpectrumFiles + "."));
+  parameters.push_back(makeMenu(side + kFilter, label + " filter", group,
+                                withFirst({kNoFilter, kFromFile}, catalogue.filters), kNoFilter,
+                                "Gel or filter between the light and the " + std::string("observer.")));
+  parameters.push_back(makeNumber(side + kDensity, label + " filter density", group, 1.0, {0, 100}, {0, 4},
+                                  "1: the filter as measured; 0.5: half its dye; 2: two sheets."));
+  parameters.push_back(
+      makeFile(side + kFilterFile, label + " filter file", group,
+               std::string("Transmittance, where the filter menu says From file: ") + kSpectrumFiles + "."));
+  parameters.push_back(makeMenu(side + kObserver, label + " observer", group,
+                                withFirst({kFromFile}, catalogue.observers), "CIE 1931 2",
+                                "Who looks: an eye, or a camera by its measured sensitivities."));
+  parameters.push_back(
+      makeFile(side + kObserverFile, label + " observer file", group,
+               std::string("Three sensitivities, where the observer menu says From file: ") + kSpectrumFiles + "."));
+}
+
+}  // namespace
+
+std::vector<Parameter> spectralTransferParameters(const Catalogue& catalogue) {
+  std::vector<Parameter> parameters;
+  addLight(parameters, "input", "Input", "The light that the picture was shot under.", 5600, catalogue);
+  addLight(parameters, "output", "Output", "The light that it should appear under.", 3200, catalogue);
+  parameters.push_back(makeNumber("adaptation", "Adaptation", "", 0.0, {0, 1}, {0, 1},
+                                  "How far the viewer's eye follows the new light. 0: the whole cast of the new light "
+                                  "shows; 1: neutrals stay neutral."));
+  parameters.push_back(makeNumber(kMixName, "Mix", "", 1.0, {0, 1}, {0, 1},
+                                  "0: the picture as it came; 1: the result. The mask scales it."));
+
+  addDetails(parameters, "input", "Input", catalogue);
+  addDetails(parameters, "output", "Output", catalogue);
+
+  const std::string scene = "sceneGroup";
+  parameters.push_back(makeGroup(scene, "Objects in the picture", false));
+  parameters.push_back(makeMenu("scene", "Reference scene", scene, {kSmooth, kDataset, kPrior}, kSmooth,
+                                "Which reflectance a colour is taken to have. Smooth: the smoothest that has it. Data "
+                                "set: measured ones, interpolated. Prior: smooth, drawn to measured ones near by."));
+  parameters.push_back(makeMenu("sceneSet", "Reflectances", scene, withFirst({kFromFile}, catalogue.reflectanceSets),
+                                "colorchecker", "Measured reflectances, for Data set and Prior."));
+  parameters.push_back(
+      makeFile("sceneFile", "Reflectance file", scene, "CSV of reflectances, where the menu says From file."));
+  parameters.push_back(makeNumber("priorStrength", "Prior strength", scene, 1.0, {0, 1}, {0, 1},
+                                  "0: Smooth; 1: the measured reflectances in full, where there are some."));
+  parameters.push_back(makeNumber("priorRadius", "Prior radius", scene, 0.04, {0.0001, 1}, {0.005, 0.2},
+                                  "How far in CIE xy a measured reflectance reaches."));
+
+  const std::string colour = "colourGroup";
+  parameters.push_back(makeGroup(colour, "Colour", false));
+  parameters.push_back(makeFlag(kHostSpaceName, "Follow the host's colour space", colour, true, false,
+                                "Take the picture's colour space from the host, where it tells (OFX 1.5). The menu "
+                                "holds otherwise."));
+  parameters.push_back(makeMenu("space", "Working space", colour, catalogue.spaces, "ACEScg",
+                                "Colour space of the picture, in and out; linear or log."));
+  parameters.push_back(makeMenu("cat", "Chromatic adaptation", colour, {"vonkries", "bradford", "cat02", "cat16"},
+                                "vonkries", "The cone space in which white is adapted to white."));
+  parameters.push_back(makeFlag("keepExposure", "Keep exposure", colour, false, true,
+                                "On: the light that filters cost is lost in the result too. Off: made up for."));
+  parameters.push_back(makeMenu("quality", "Quality", colour, {kMapQuality, kExactQuality}, kMapQuality,
+                                "Map: a table within about a tenth of a CIEDE2000, at playback speed. Exact: every "
+                                "pixel solved, slow."));
+
+  const std::string recipe = "recipeGroup";
+  parameters.push_back(makeGroup(recipe, "Recipe", false));
+  parameters.push_back(makeFile("recipeFile", "Recipe file", recipe,
+                                "A metamer recipe (.yaml). Where one is given it overrides lights, filters, observers, "
+                                "adaptation, objects, working space, chromatic adaptation and exposure above."));
+  return parameters;
+}
+
+}  // namespace metamer::ofx

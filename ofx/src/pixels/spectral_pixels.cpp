@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pixels/spectral_pixels.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <functional>
+#include <utility>
+
+#include "host/threads.h"
+#include "pixels/signal_curve.h"
+
+namespace metamer::ofx {
+
+namespace {
+
+/// Not on the host's: those may be the very ones that wait for the map.
+void onOwnThreads(int count, const std::function<void(int)>& body) {
+  std::atomic<int> next = 0;
+  runWorkers(HostSuites{}, count, [&](int /*worker*/) {
+    for (int i = next++; i < count; i = next++) {
+      body(i);
+    }
+  });
+}
+
+}  // namespace
+
+const sip::HomogeneousMap& SpectralEngine::map() const {
+  const std::lock_guard lock(m_mutex);
+  if (!m_map) {
+    m_map = sip::buildHomogeneousMap(m_exact, sip::kDefaultMapTolerance, onOwnThreads);
+  }
+  return *m_map;
+}
+
+namespace {
+
+/// Encoded pixels are worked on in parts, beside a copy of the part: what is not finite is put back.
+constexpr std::size_t kPartFloats = 2048;
+
+class SpectralPixels final : public PixelTransform {
+ public:
+  SpectralPixels(std::shared_ptr<const SpectralEngine> engine, std::optional<spectral::LogEncoding> encoding,
+                 std::shared_ptr<const SignalTable> table, Quality quality)
+      : m_engine(std::move(engine)), m_encoding(encoding), m_table(std::move(table)), m_quality(quality) {}
+
+  void prepare() const override {
+    if (m_quality == Quality::Map) {
+      m_map = &m_engine->map();
+    }
+  }
+
+  void apply(std::span<const float> source, std::span<float> destination) const override {
+    if (!m_encoding) {
+      applyLinear(source, destination);
+      return;
+    }
+    for (std::size_t begin = 0; begin < source.size(); begin += kPartFloats) {
+      const std::size_t count = std::min(kPartFloats, source.size() - begin);
+      applyEncoded(source.subspan(begin, count), destination.subspan(begin, count));
+    }
+  }
+
+  bool isIdentity() const override { return m_engine->exact().isIdentity(); }
+  bool isHomogeneous() const override { return !m_encoding; }
+
+ private:
+  void applyEncoded(std::span<const float> source, std::span<float> destination) const {
+    std::array<float, kPartFloats> memory;
+    const std::span<float> part(memory.data(), source.size());
+    std::copy(source.begin(), source.end(), part.begin());
+    if (m_table != nullptr && m_quality == Quality::Map) {
+      m_table->decode(part);
+      applyLinear(part, part);
+      m_table->encode(part);
+    } else {
+      decodePixels(*m_encoding, part);
+      applyLinear(part, part);
+      encodePixels(*m_encoding, part);
+    }
+    restoreNonFinite(source, part);
+    std::copy(part.begin(), part.end(), destination.begin());
+  }
+
+  void applyLinear(std::span<const float> source, std::span<float> destination) const {
+    if (const sip::HomogeneousMap* map = m_map) {
+      map->apply(source, destination);
+      return;
+    }
+    if (source.data() != destination.data()) {
+      std::copy(source.begin(), source.end(), destination.begin());
+    }
+    m_engine->exact().apply(destination);
+  }
+
+  std::shared_ptr<const SpectralEngine> m_engine;
+  std::optional<spectral::LogEncoding> m_encoding;
+  std::shared_ptr<const SignalTable> m_table;
+  Quality m_quality;
+  mutable std::atomic<const sip::HomogeneousMap*> m_map = nullptr;  // of m_engine
+};
+
+}  // namespace
+
+std::unique_ptr<PixelTransform> makeSpectralPixels(std::shared_ptr<const SpectralEngine> engine,
+                                                   std::optional<spectral::LogEncoding> encoding,
+                                                   std::shared_ptr<const SignalTable> table, Quality quality) {
+  return std::make_unique<SpectralPixels>(std::move(engine), encoding, std::move(table), quality);
+}
+
+}  // namespace metamer::ofx

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "metamer/sip/homogeneous_map.h"
+#include "metamer/sip/spectral_transform.h"
+#include "metamer/spectral/log_encoding.h"
+#include "pixels/pixel_transform.h"
+#include "pixels/signal_table.h"
+
+namespace metamer::ofx {
+
+/// An engine with its map, the map built when it is first asked for.
+class SpectralEngine {
+ public:
+  explicit SpectralEngine(sip::SpectralTransform transform) : m_exact(std::move(transform)) {}
+
+  const sip::SpectralTransform& exact() const { return m_exact; }
+  /// Safe from several threads: one builds, the others wait.
+  const sip::HomogeneousMap& map() const;
+
+ private:
+  sip::SpectralTransform m_exact;
+  mutable std::mutex m_mutex;
+  mutable std::optional<sip::HomogeneousMap> m_map;
+};
+
+enum class Quality { Map, Exact };
+
+/// An engine on the pixels of a colour space.
+/// @param encoding  of the pixels; none: they are linear
+/// @param table     of that encoding, for Quality::Map; may be null otherwise
+std::unique_ptr<PixelTransform> makeSpectralPixels(std::shared_ptr<const SpectralEngine> engine,
+                                                   std::optional<spectral::LogEncoding> encoding,
+                                                   std::shared_ptr<const SignalTable> table, Quality quality);
+
+}  // namespace metamer::ofx

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/sip/recipe.h"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <system_error>
+
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/near_names.h"
+#include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
+#include "metamer/spectral/yaml_section.h"
+
+namespace metamer::sip {
+namespace {
+
+using spectral::InputError;
+using spectral::YamlNode;
+using spectral::YamlSection;
+
+constexpr double kLargestDensity = 100.0;
+constexpr double kLargestRadius = 1.0;
+/// Reflectances over which the matrix of a camera is solved.
+constexpr const char* kTrainingSet = "rawtoaces 190";
+constexpr const char* kStandardObserver = "CIE 1931 2";
+
+RecipeFilter readFilter(const YamlNode& node, const YamlSection& pipeline, const std::string& path) {
+  if (node.kind == YamlNode::Kind::Scalar) {
+    return {pipeline.text(node, "filters"), 1.0};
+  }
+  const YamlSection section(node, pipeline.where(), path, {"name", "file", "density"});
+  RecipeFilter filter;
+  const YamlNode* name = section.find("name");
+  const YamlNode* file = section.find("file");
+  if ((name == nullptr) == (file == nullptr)) {
+    throw section.error(node, path, "", "must have either a name or a file");
+  }
+  filter.name = name != nullptr ? section.text(*name, "name") : section.text(*file, "file");
+  // A file without folder or extension would be taken for a name.
+  if (file != nullptr && filter.name.find('/') == std::string::npos && filter.name.find('\\') == std::string::npos) {
+    filter.name = "./" + filter.name;
+  }
+  section.read("density", filter.density, 0.0, kLargestDensity);
+  return filter;
+}
+
+RecipePipeline readPipeline(const YamlSection& section) {
+  RecipePipeline pipeline;
+  pipeline.illuminant = section.text(
+      section.require("illuminant", "is missing; name the light, such as 'illuminant: D65'"), "illuminant");
+  section.read("observer", pipeline.observer);
+  if (const YamlNode* filters = section.find("filters")) {
+    if (filters->kind != YamlNode::Kind::Sequence) {
+      throw section.error(*filters, section.named("filters"), filters->text, "must be a list, such as [gel.csv]");
+    }
+    for (std::size_t i = 0; i < filters->items.size(); ++i) {
+      pipeline.filters.push_back(
+          readFilter(filters->items[i], section, section.named("filters") + "[" + std::to_string(i) + "]"));
+    }
+  }
+  return pipeline;
+}
+
+RecipeScene readScene(const YamlSection& section) {
+  RecipeScene scene;
+  std::string kind = "smooth";
+  section.read("kind", kind);
+  if (kind == "dataset") {
+    scene.kind = ReferenceScene::Kind::Dataset;
+  } else if (kind == "prior") {
+    scene.kind = ReferenceScene::Kind::Prior;
+  } else if (kind != "smooth") {
+    throw section.error(*section.find("kind"), "scene.kind", kind, "must be smooth, dataset or prior");
+  }
+  section.read("set", scene.set);
+  section.read("strength", scene.strength, 0.0, 1.0);
+  section.read("radius", scene.radius, 1e-4, kLargestRadius);
+  const auto refuse = [&](const char* key, const char* remedy) {
+    if (const YamlNode* node = section.find(key)) {
+      throw section.error(*node, section.named(key), node->text, remedy);
+    }
+  };
+  if (scene.kind == ReferenceScene::Kind::Smooth) {
+    refuse("set", "has no meaning with kind smooth; use kind dataset or prior, or leave it out");
+  } else {
+    section.require("set", "is missing; name a reflectance set (see: lutgen list reflectances)");
+  }
+  if (scene.kind != ReferenceScene::Kind::Prior) {
+    refuse("strength", "has a meaning with kind prior alone; leave it out");
+    refuse("radius", "has a meaning with kind prior alone; leave it out");
+  }
+  return scene;
+}
+
+/// Text as a YAML scalar that reads back as the same text.
+std::string quoted(const std::string& text) {
+  const auto isPlain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), isPlain) && text != "null" && text != "Null" &&
+      text != "NULL") {
+    return text;
+  }
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      result += '\\';
+    }
+    result += c;
+  }
+  return result + '"';
+}
+
+std::string toYaml(const RecipePipeline& pipeline) {
+  std::string text = "{illuminant: " + quoted(pipeline.illuminant) + ", filters: [";
+  for (std::size_t i = 0; i < pipeline.filters.size(); ++i) {
+    const RecipeFilter& filter = pipeline.filters[i];
+    text += std::string(i == 0 ? "" : ", ") + "{name: " + quoted(filter.name) +
+            ", density: " + spectral::shortestNumber(filter.density) + "}";
+  }
+  return text + "], observer: " + quoted(pipeline.observer);
+}
+
+/// Runs a look-up and says in its error where in the recipe the name stands.
+template <typename Look>
+auto lookUp(const Recipe& recipe, const char* field, Look look) {
+  try {
+    return look();
+  } catch (const InputError& error) {
+    throw InputError(recipe.where, field + std::string(": ") + error.what(), "", "");
+  }
+}
+
+Pipeline resolvePipeline(const Recipe& recipe, const char* side, const RecipePipeline& named,
+                         const spectral::DataLibrary& library) {
+  return lookUp(recipe, side, [&] {
+    Pipeline pipeline{
+        library.illuminant(named.illuminant, recipe.folder), {}, library.observer(named.observer, recipe.folder)};
+    for (const auto& filter : named.filters) {
+      pipeline.filters.push_back({library.filter(filter.name, recipe.folder), filter.density});
+    }
+    return pipeline;
+  });
+}
+
+std::vector<spectral::DomainSamples> onDomain(const spectral::ReflectanceSet& set) {
+  std::vector<spectral::DomainSamples> samples;
+  for (const auto& sample : set.samples) {
+    samples.push_back(sample.onDomain());
+  }
+  return samples;
+}
+
+}  // namespace
+
+Recipe readRecipe(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(file, none);
+  if (!none && std::filesystem::is_regular_file(file, none) && size > kLargestRecipeBytes) {
+    throw InputError(file.string(), "size", std::to_string(size),
+                     "is more than a recipe may have (" + std::to_string(kLargestRecipeBytes) + " bytes)");
+  }
+  Recipe recipe = parseRecipe(spectral::readTextFile(file), file.string());
+  recipe.folder = file.parent_path();
+  return recipe;
+}
+
+Recipe parseRecipe(const std::string& text, const std::string& where) {
+  if (text.size() > kLargestRecipeBytes) {
+    throw InputError(where, "size", std::to_string(text.size()),
+                     "is more than a recipe may have (" + std::to_string(kLargestRecipeBytes) + " bytes)");
+  }
+  const YamlNode root = spectral::parseYaml(text, where);
+  const YamlSection top(root, where, "",
+                        {"metamer", "name", "space", "input", "output", "scene", "cat", "keep_exposure"});
+  const YamlNode& version = top.require("metamer", "is missing; a recipe starts with 'metamer: 1'");
+  if (version.kind != YamlNode::Kind::Scalar || version.quoted || version.text != "1") {
+    throw top.error(version, "metamer", version.text,
+                    "is a version this release does not read; it reads 1, a number without quotes");
+  }
+  Recipe recipe;
+  recipe.where = where;
+  top.read("name", recipe.name);
+  top.read("space", recipe.space);
+  top.read("keep_exposure", recipe.keepExposure);
+
+  const YamlSection input(top.require("input", "is missing; give the light, such as 'input: {illuminant: D65}'"), where,
+                          "input", {"illuminant", "filters", "observer"});
+  recipe.input = readPipeline(input);
+  const YamlSection output(top.require("output", "is missing; give the light, such as 'output: {illuminant: A}'"),
+                           where, "output", {"illuminant", "filters", "observer", "adaptation"});
+  recipe.output = readPipeline(output);
+  output.read("adaptation", recipe.adaptation, 0.0, 1.0);
+
+  if (const YamlNode* scene = top.find("scene")) {
+    recipe.scene = readScene(YamlSection(*scene, where, "scene", {"kind", "set", "strength", "radius"}));
+  }
+  if (const YamlNode* cat = top.find("cat")) {
+    const std::string name = top.text(*cat, "cat");
+    try {
+      recipe.cat = spectral::chromaticAdaptationFromName(name);
+    } catch (const InputError&) {
+      throw top.error(*cat, "cat", name, "must be vonkries, bradford, cat02 or cat16");
+    }
+  }
+  return recipe;
+}
+
+std::string toYaml(const Recipe& recipe) {
+  std::string text = "metamer: 1\nname: " + quoted(recipe.name) + "\nspace: " + quoted(recipe.space) +
+                     "\ninput: " + toYaml(recipe.input) + "}\noutput: " + toYaml(recipe.output) +
+                     ", adaptation: " + spectral::shortestNumber(recipe.adaptation) + "}\n";
+  switch (recipe.scene.kind) {
+    case ReferenceScene::Kind::Smooth:
+      text += "scene: {kind: smooth}\n";
+      break;
+    case ReferenceScene::Kind::Dataset:
+      text += "scene: {kind: dataset, set: " + quoted(recipe.scene.set) + "}\n";
+      break;
+    case ReferenceScene::Kind::Prior:
+      text += "scene: {kind: prior, set: " + quoted(recipe.scene.set) +
+              ", strength: " + spectral::shortestNumber(recipe.scene.strength) +
+              ", radius: " + spectral::shortestNumber(recipe.scene.radius) + "}\n";
+      break;
+  }
+  text += "cat: " + spectral::nameOf(recipe.cat) + "\n";
+  return text + "keep_exposure: " + (recipe.keepExposure ? "true" : "false") + "\n";
+}
+
+TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library) {
+  return resolve(recipe, library, lookUp(recipe, "space", [&] { return library.colourSpace(recipe.space).linear; }));
+}
+
+TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library, const spectral::RgbSpace& space) {
+  TransformSpec spec{.space = space,
+                     .input = resolvePipeline(recipe, "input", recipe.input, library),
+                     .output = resolvePipeline(recipe, "output", recipe.output, library),
+                     .adaptation = recipe.adaptation,
+                     .cat = recipe.cat,
+                     .keepExposure = recipe.keepExposure,
+                     .scene = {.kind = recipe.scene.kind,
+                               .samples = {},
+                               .strength = recipe.scene.strength,
+                               .radius = recipe.scene.radius},
+                     .training = onDomain(library.reflectances(kTrainingSet)),
+                     .standardObserver = library.observer(kStandardObserver)};
+  if (recipe.scene.kind != ReferenceScene::Kind::Smooth) {
+    spec.scene.samples =
+        lookUp(recipe, "scene", [&] { return onDomain(library.reflectances(recipe.scene.set, recipe.folder)); });
+  }
+  return spec;
+}
+
+}  // namespace metamer::sip

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "film/film_sensor.h"
+
+namespace metamer::spectral_ref {
+
+FilmSensor::FilmSensor(const FilmSettings& settings) : m_bins(settings.bins), m_curves(kCells) {
+  const auto curves = settings.observer.onDomain();
+  // Responses are scaled so that a radiance of 1 at every wavelength gives a luminance of 1.
+  const double scale = 1.0 / settings.luminanceOfResponse.dot(curves.colwise().sum().transpose());
+  for (int i = 0; i < kCells; ++i) {
+    const Eigen::Vector3d response = curves.row(i).transpose() * scale;
+    m_curves[static_cast<std::size_t>(i)] << response.cast<float>().array(),
+        static_cast<float>(settings.luminanceOfResponse.dot(response));
+  }
+}
+
+}  // namespace metamer::spectral_ref

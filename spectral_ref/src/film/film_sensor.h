@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "metamer/spectral_ref/film.h"
+#include "wavelengths/lanes.h"
+
+namespace metamer::spectral_ref {
+
+/// Turns the radiance of paths into responses of the observer and spectral bins.
+class FilmSensor {
+ public:
+  explicit FilmSensor(const FilmSettings& settings);
+
+  /// Adds one path's radiance to a pixel. Not two threads on one pixel.
+  /// A value that is no number or beyond what the film's sums hold is left out and counted.
+  template <int C>
+  void add(Film& film, std::size_t pixel, std::size_t replicate, const WavelengthSet<C>& wavelengths,
+           const Lanes<C>& radiance) {
+    const Lanes<C> values = radiance * wavelengths.weight;
+    // One test for all: a lane that is no number or out of range shows in the sum of squares.
+    const float size = values.square().sum();
+    if (!(size < kLargestSquare)) {
+      m_refused.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    if (size == 0.0F) {
+      return;
+    }
+    Eigen::Array4f response = Eigen::Array4f::Zero();
+    for (int k = 0; k < C; ++k) {
+      response += values[k] * m_curves[static_cast<std::size_t>(wavelengths.cell[static_cast<std::size_t>(k)])];
+    }
+    ExactSum* sums = film.pixel(pixel);
+    for (int c = 0; c < 3; ++c) {
+      const auto value = static_cast<double>(response[c]);
+      sums[Film::kColour + static_cast<std::size_t>(c)].add(value);
+      if ((replicate & 1U) != 0) {
+        sums[Film::kHalf + static_cast<std::size_t>(c)].add(value);
+      }
+    }
+    sums[Film::kLuminance + replicate].add(static_cast<double>(response[3]));
+    if (m_bins.count > 0) {
+      for (int k = 0; k < C; ++k) {
+        addToBin(sums + Film::kFirstBin, wavelengths.nm[k], values[k]);
+      }
+    }
+  }
+
+  /// Y of a radiance of 1 in a cell.
+  float luminance(std::int32_t cell) const { return m_curves[static_cast<std::size_t>(cell)][3]; }
+  /// What a radiance of 1 in a cell adds to luminance and all three responses, none negative.
+  float worth(std::int32_t cell) const { return m_curves[static_cast<std::size_t>(cell)].abs().sum(); }
+  std::uint64_t refused() const { return m_refused.load(); }
+
+ private:
+  static constexpr float kLargestSquare = 1e22F;
+
+  void addToBin(ExactSum* bins, float nm, float value) const {
+    const double place = (static_cast<double>(nm) - m_bins.fromNm) / m_bins.stepNm + 0.5;
+    if (place >= 0.0 && place < static_cast<double>(m_bins.count)) {
+      bins[static_cast<std::size_t>(place)].add(static_cast<double>(value));
+    }
+  }
+
+  SpectralBins m_bins;
+  /// Responses 0, 1, 2 and luminance by cell: a radiance of 1 gives a luminance of 1.
+  std::vector<Eigen::Array4f> m_curves;
+  std::atomic<std::uint64_t> m_refused = 0;
+};
+
+}  // namespace metamer::spectral_ref

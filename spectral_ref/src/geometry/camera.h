@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geometry/geometry.h"
+#include "metamer/spectral_ref/scene.h"
+
+namespace metamer::spectral_ref {
+
+/// A pinhole. Pixel (0, 0) is the top left corner of the picture.
+class Camera {
+ public:
+  Camera(const CameraSettings& settings, const FilmSettings& film);
+
+  /// The ray through a place on the film, in pixels.
+  Ray ray(float x, float y) const {
+    Ray result;
+    result.origin = m_origin;
+    result.direction = (m_corner + m_right * x + m_down * y).normalized();
+    return result;
+  }
+  /// A place on the film about a pixel's centre, drawn by the pixel filter.
+  Eigen::Vector2f filtered(int x, int y, const Eigen::Vector2f& square) const;
+
+ private:
+  Vec3 m_origin;
+  Vec3 m_corner;
+  Vec3 m_right;
+  Vec3 m_down;
+  FilmSettings::Filter m_filter;
+  float m_radius;
+  float m_sigma;
+  float m_tail;  ///< of the normal distribution below -radius
+};
+
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/embree_scene.h"
+
+#ifdef METAMER_EMBREE_4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace metamer::spectral_ref {
+namespace {
+
+constexpr unsigned kRectangles = 0;
+constexpr unsigned kSpheres = 1;
+constexpr unsigned kFirstMesh = 2;
+
+struct FreeDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct FreeScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+void store(float* destination, const Vector3& point) {
+  for (int i = 0; i < 3; ++i) {
+    destination[i] = static_cast<float>(point[i]);
+  }
+}
+
+template <typename T>
+T* newBuffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride, std::size_t count) {
+  void* data = rtcSetNewGeometryBuffer(geometry, type, 0, format, stride, count);
+  if (data == nullptr) {
+    throw std::bad_alloc();
+  }
+  return static_cast<T*>(data);
+}
+
+RTCRay embreeRay(const Ray& ray) {
+  RTCRay result;
+  result.org_x = ray.origin.x();
+  result.org_y = ray.origin.y();
+  result.org_z = ray.origin.z();
+  result.tnear = ray.least;
+  result.dir_x = ray.direction.x();
+  result.dir_y = ray.direction.y();
+  result.dir_z = ray.direction.z();
+  result.time = 0.0F;
+  result.tfar = ray.most;
+  result.mask = 0xffffffffU;
+  result.id = 0;
+  result.flags = 0;
+  return result;
+}
+
+}  // namespace
+
+struct EmbreeScene::Handles {
+  std::unique_ptr<RTCDeviceTy, FreeDevice> device;
+  std::unique_ptr<RTCSceneTy, FreeScene> scene;
+
+  void attach(RTCGeometry geometry, unsigned id) const {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene.get(), geometry, id);
+    rtcReleaseGeometry(geometry);
+  }
+};
+
+EmbreeScene::EmbreeScene(const Scene& scene) : m_handles(std::make_unique<Handles>()) {
+  m_handles->device.reset(rtcNewDevice(nullptr));
+  if (!m_handles->device) {
+    throw std::runtime_error("Embree does not start on this machine");
+  }
+  RTCDevice device = m_handles->device.get();
+  m_handles->scene.reset(rtcNewScene(device));
+  rtcSetSceneFlags(m_handles->scene.get(), RTC_SCENE_FLAG_ROBUST);
+
+  std::uint32_t emitters = 0;
+  const auto emitterOf = [&](const Surface& surface, bool isPicture) {
+    return surface.emission || isPicture ? emitters++ : kNone;
+  };
+  if (!scene.rectangles.empty()) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+    const std::size_t count = scene.rectangles.size();
+    auto* vertices =
+        newBuffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 4 * count);
+    auto* indices = newBuffer<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Rectangle& rectangle = scene.rectangles[i];
+      const std::array<Vector3, 4> corners = {
+          rectangle.center - rectangle.halfU - rectangle.halfV, rectangle.center + rectangle.halfU - rectangle.halfV,
+          rectangle.center + rectangle.halfU + rectangle.halfV, rectangle.center - rectangle.halfU + rectangle.halfV};
+      for (std::size_t k = 0; k < 4; ++k) {
+        store(vertices + 3 * (4 * i + k), corners[k]);
+        indices[4 * i + k] = static_cast<unsigned>(4 * i + k);
+      }
+      m_rectangles.push_back({rectangle.halfU.cross(rectangle.halfV).normalized().cast<float>(),
+                              rectangle.center.cast<float>(), rectangle.surface.material,
+                              emitterOf(rectangle.surface, rectangle.picture.has_value()), 0.0F});
+    }
+    m_handles->attach(geometry, kRectangles);
+  }
+  if (!scene.spheres.empty()) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    auto* vertices =
+        newBuffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 4 * sizeof(float), scene.spheres.size());
+    for (std::size_t i = 0; i < scene.spheres.size(); ++i) {
+      const Sphere& sphere = scene.spheres[i];
+      store(vertices + 4 * i, sphere.center);
+      vertices[4 * i + 3] = static_cast<float>(sphere.radius);
+      m_spheres.push_back({Vec3::Zero(), sphere.center.cast<float>(), sphere.surface.material,
+                           emitterOf(sphere.surface, false), static_cast<float>(sphere.radius)});
+    }
+    m_handles->attach(geometry, kSpheres);
+  }
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const Mesh& mesh = scene.meshes[m];
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices =
+        newBuffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size());
+    auto* indices = newBuffer<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
+                                        mesh.triangles.size());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      std::copy(mesh.vertices[i].begin(), mesh.vertices[i].end(), vertices + 3 * i);
+    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      std::copy(mesh.triangles[i].begin(), mesh.triangles[i].end(), indices + 3 * i);
+    }
+    m_meshes.push_back({mesh.surface.material, emitterOf(mesh.surface, false)});
+    m_handles->attach(geometry, kFirstMesh + static_cast<unsigned>(m));
+  }
+  rtcCommitScene(m_handles->scene.get());
+  if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
+    throw std::runtime_error("Embree cannot take the scene (error " + std::to_string(error) + ")");
+  }
+}
+
+EmbreeScene::~EmbreeScene() = default;
+
+bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
+  RTCRayHit query;
+  query.ray = embreeRay(ray);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#ifdef METAMER_EMBREE_4
+  rtcIntersect1(m_handles->scene.get(), &query, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(m_handles->scene.get(), &context, &query);
+#endif
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+    return false;
+  }
+  hit.distance = query.ray.tfar;
+  hit.position = ray.origin + ray.direction * hit.distance;
+  hit.primitive = query.hit.primID;
+  hit.u = query.hit.u;
+  hit.v = query.hit.v;
+  if (query.hit.geomID == kRectangles) {
+    const ShapeRecord& record = m_rectangles[query.hit.primID];
+    hit.normal = record.normal;
+    hit.material = record.material;
+    hit.emitter = record.emitter;
+  } else if (query.hit.geomID == kSpheres) {
+    const ShapeRecord& record = m_spheres[query.hit.primID];
+    hit.normal = (hit.position - record.center).normalized();
+    // Back onto the sphere: the distance along a long ray carries more error than its radius does.
+    hit.position = record.center + hit.normal * record.radius;
+    hit.material = record.material;
+    hit.emitter = record.emitter;
+  } else {
+    const MeshRecord& record = m_meshes[query.hit.geomID - kFirstMesh];
+    hit.normal = Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).normalized();
+    hit.material = record.material;
+    hit.emitter = record.emitter;
+  }
+  return true;
+}
+
+bool EmbreeScene::occluded(const Ray& ray) const {
+  RTCRay query = embreeRay(ray);
+#ifdef METAMER_EMBREE_4
+  rtcOccluded1(m_handles->scene.get(), &query, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(m_handles->scene.get(), &context, &query);
+#endif
+  return query.tfar < 0.0F;
+}
+
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geometry/geometry.h"
+#include "metamer/spectral_ref/scene.h"
+
+namespace metamer::spectral_ref {
+
+/// No emitter, no picture, no hit.
+inline constexpr std::uint32_t kNone = 0xffffffffU;
+
+/// What lies where a ray ends.
+struct Hit {
+  Vec3 position;
+  Vec3 normal;  ///< unit, the side that reflects and emits
+  float distance = 0;
+  float u = 0;  ///< along a rectangle, 0 ... 1
+  float v = 0;
+  std::uint32_t material = 0;
+  std::uint32_t emitter = kNone;  ///< shape's number among emitting shapes (EmitterShape)
+  std::uint32_t primitive = 0;    ///< triangle within a mesh
+};
+
+/// The shapes in Embree's hierarchy. The only file that knows Embree is its source.
+class EmbreeScene {
+ public:
+  explicit EmbreeScene(const Scene& scene);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  /// Nearest shape; false where there is none.
+  bool intersect(const Ray& ray, Hit& hit) const;
+  /// Whether anything lies between.
+  bool occluded(const Ray& ray) const;
+
+  /// Emitting shapes number rectangles first, then spheres, then meshes, each in the scene's order.
+  std::uint32_t emitterOfRectangle(std::size_t index) const { return m_rectangles[index].emitter; }
+  std::uint32_t emitterOfSphere(std::size_t index) const { return m_spheres[index].emitter; }
+  std::uint32_t emitterOfMesh(std::size_t index) const { return m_meshes[index].emitter; }
+
+ private:
+  struct ShapeRecord {
+    Vec3 normal;
+    Vec3 center;
+    std::uint32_t material;
+    std::uint32_t emitter;
+    float radius;
+  };
+  struct MeshRecord {
+    std::uint32_t material;
+    std::uint32_t emitter;
+  };
+  struct Handles;
+
+  std::unique_ptr<Handles> m_handles;
+  std::vector<ShapeRecord> m_rectangles;
+  std::vector<ShapeRecord> m_spheres;
+  std::vector<MeshRecord> m_meshes;
+};
+
+}  // namespace metamer::spectral_ref

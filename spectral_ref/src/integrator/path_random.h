@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "geometry/geometry.h"
+#include "integrator/sampler.h"
+#include "lights/light_table.h"
+
+namespace metamer::spectral_ref {
+
+/// Random numbers of a path by use. Set 0 serves the camera and the first vertex; vertex n > 0 has set n.
+class PathRandom {
+ public:
+  explicit PathRandom(const Sampler& sampler) : m_sampler(sampler), m_set(sampler.set(0)) {}
+
+  Eigen::Vector2f pixel() const { return {m_set[0], m_set[1]}; }
+  float wavelength() const { return m_set[2]; }
+
+  /// Goes on to a vertex: before any of the below.
+  void vertex(std::uint32_t number) {
+    m_vertex = number;
+    m_offset = 3;
+    if (number > 0) {
+      m_set = m_sampler.set(number);
+      m_offset = 0;
+    }
+  }
+  LightPoint light(const LightTable& lights) const {
+    return lights.choose(m_set.bits[m_offset + 2], m_set[m_offset], m_set[m_offset + 1]);
+  }
+  Eigen::Vector2f direction() const { return {m_set[m_offset + 3], m_set[m_offset + 4]}; }
+  /// Chooses among the candidates of resampling, in place of light().
+  float candidate() const { return m_set[m_offset + 2]; }
+  Sampler::Candidates candidates(unsigned log2Count) const { return m_sampler.candidates(kCandidateSet, log2Count); }
+  float lobe() const { return m_vertex > 0 ? m_set[5] : m_sampler.random(0); }
+  float roulette() const { return m_vertex > 0 ? m_set[6] : m_sampler.random(1); }
+
+ private:
+  static constexpr std::uint32_t kCandidateSet = 0x63616e64U;  ///< no vertex has this number
+
+  Sampler m_sampler;
+  Sampler::Set m_set;
+  std::size_t m_offset = 3;
+  std::uint32_t m_vertex = 0;
+};
+
+}  // namespace metamer::spectral_ref

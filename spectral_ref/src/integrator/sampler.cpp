@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrator/sampler.h"
+
+#include <cstddef>
+
+namespace metamer::spectral_ref {
+namespace {
+
+constexpr std::uint32_t reversed(std::uint32_t x) {
+  x = ((x >> 1U) & 0x55555555U) | ((x & 0x55555555U) << 1U);
+  x = ((x >> 2U) & 0x33333333U) | ((x & 0x33333333U) << 2U);
+  x = ((x >> 4U) & 0x0f0f0f0fU) | ((x & 0x0f0f0f0fU) << 4U);
+  x = ((x >> 8U) & 0x00ff00ffU) | ((x & 0x00ff00ffU) << 8U);
+  return (x >> 16U) | (x << 16U);
+}
+
+/// Owen scrambling of a bit-reversed number: each bit is flipped by a hash of those below it (Laine and Karras 2011,
+/// with the constants of Vegdahl 2021).
+constexpr std::uint32_t scrambledReversed(std::uint32_t x, std::uint32_t seed) {
+  x ^= x * 0x3d20adeaU;
+  x += seed;
+  x *= (seed >> 16U) | 1U;
+  x ^= x * 0x05526c56U;
+  x ^= x * 0x53a22864U;
+  return x;
+}
+
+/// Primitive polynomial and first direction numbers of a Sobol dimension (Joe and Kuo 2008, new-joe-kuo-6).
+struct Polynomial {
+  unsigned degree;
+  unsigned coefficients;
+  std::array<std::uint32_t, 5> first;
+};
+constexpr std::array<Polynomial, Sampler::kSetSize - 1> kPolynomials = {{{1, 0, {1}},
+                                                                         {2, 1, {1, 3}},
+                                                                         {3, 1, {1, 3, 1}},
+                                                                         {3, 2, {1, 1, 1}},
+                                                                         {4, 1, {1, 1, 3, 3}},
+                                                                         {4, 4, {1, 3, 5, 13}},
+                                                                         {5, 2, {1, 1, 5, 5, 17}}}};
+
+constexpr unsigned kBits = 32;
+using Directions = std::array<std::array<std::uint32_t, Sampler::kSetSize>, kBits>;
+
+/// [bit of the index][dimension], bit-reversed so that the scrambling needs no reversal.
+constexpr Directions makeDirections() {
+  Directions directions{};
+  for (unsigned bit = 0; bit < kBits; ++bit) {
+    directions[bit][0] = 1U << bit;
+  }
+  for (std::size_t d = 1; d < Sampler::kSetSize; ++d) {
+    const Polynomial& polynomial = kPolynomials[d - 1];
+    std::array<std::uint32_t, kBits> v{};
+    for (unsigned bit = 0; bit < kBits; ++bit) {
+      if (bit < polynomial.degree) {
+        v[bit] = polynomial.first[bit] << (kBits - 1 - bit);
+        continue;
+      }
+      v[bit] = v[bit - polynomial.degree] ^ (v[bit - polynomial.degree] >> polynomial.degree);
+      for (unsigned k = 1; k < polynomial.degree; ++k) {
+        if (((polynomial.coefficients >> (polynomial.degree - 1 - k)) & 1U) != 0) {
+          v[bit] ^= v[bit - k];
+        }
+      }
+    }
+    for (unsigned bit = 0; bit < kBits; ++bit) {
+      directions[bit][d] = reversed(v[bit]);
+    }
+  }
+  return directions;
+}
+constexpr Directions kDirections = makeDirections();
+
+/// The sets are padded: an Owen-shuffled index breaks the correlation between them and keeps the stratification.
+/// Only within blocks of 2^16 points: a permutation still, and an index of few bits stays one.
+std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
+  constexpr std::uint32_t kBlock = 0xffffU;
+  return (reversed(scrambledReversed(reversed(index), seed)) & kBlock) | (index & ~kBlock);
+}
+
+}  // namespace
+
+Sampler::Candidates Sampler::candidates(std::uint32_t number, unsigned log2Count) const {
+  const std::uint32_t seed = hash32(m_sequence, number);
+  Candidates result{};
+  std::uint32_t index = shuffled(m_index, seed);
+  for (unsigned bit = log2Count; index != 0 && bit < kBits; ++bit, index >>= 1U) {
+    const std::uint32_t mask = 0U - (index & 1U);
+    for (std::size_t d = 0; d < result.m_bits.size(); ++d) {
+      result.m_bits[d] ^= kDirections[bit][d] & mask;
+    }
+  }
+  for (std::size_t d = 0; d < result.m_seeds.size(); ++d) {
+    result.m_seeds[d] = hash32(seed + static_cast<std::uint32_t>(d) * 0x9e3779b9U);
+  }
+  return result;
+}
+
+std::array<std::uint32_t, 3> Sampler::Candidates::point(std::uint32_t candidate) const {
+  std::array<std::uint32_t, 3> bits = m_bits;
+  for (unsigned bit = 0; bit < kLog2Most; ++bit) {
+    const std::uint32_t mask = 0U - ((candidate >> bit) & 1U);
+    for (std::size_t d = 0; d < bits.size(); ++d) {
+      bits[d] ^= kDirections[bit][d] & mask;
+    }
+  }
+  for (std::size_t d = 0; d < bits.size(); ++d) {
+    bits[d] = reversed(scrambledReversed(bits[d], m_seeds[d]));
+  }
+  return bits;
+}
+
+Sampler::Set Sampler::set(std::uint32_t number) const {
+  const std::uint32_t seed = hash32(m_sequence, number);
+  std::uint32_t index = shuffled(m_index, seed);
+  std::array<std::uint32_t, kSetSize> bits{};
+  for (unsigned bit = 0; index != 0; ++bit, index >>= 1U) {
+    const std::uint32_t mask = 0U - (index & 1U);
+    for (std::size_t d = 0; d < kSetSize; ++d) {
+      bits[d] ^= kDirections[bit][d] & mask;
+    }
+  }
+  for (std::size_t d = 0; d < kSetSize; ++d) {
+    const auto dimensionSeed = hash32(seed + static_cast<std::uint32_t>(d) * 0x9e3779b9U);
+    bits[d] = reversed(scrambledReversed(bits[d], dimensionSeed));
+  }
+  return {bits};
+}
+
+}  // namespace metamer::spectral_ref

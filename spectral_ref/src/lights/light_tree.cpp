@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lights/light_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace metamer::spectral_ref {
+namespace {
+
+struct Cone {
+  Vec3 axis;
+  float spread;
+};
+
+float angleBetween(const Vec3& a, const Vec3& b) {
+  return std::acos(std::clamp(a.dot(b), -1.0F, 1.0F));
+}
+
+/// A cone that holds two others.
+Cone united(const Cone& a, const Cone& b) {
+  const Vec3 sum = a.axis + b.axis;
+  const float length = sum.norm();
+  if (!(length > 0.0F)) {
+    return {a.axis, kPi};
+  }
+  const Vec3 axis = sum / length;
+  return {axis, std::min(kPi, std::max(angleBetween(axis, a.axis) + a.spread, angleBetween(axis, b.axis) + b.spread))};
+}
+
+}  // namespace
+
+struct LightTree::Built {
+  Vec3 least;
+  Vec3 most;
+  Cone cone;
+};
+
+LightTree::LightTree(const std::vector<LightBounds>& lights) : m_order(lights.size()), m_position(lights.size()) {
+  std::iota(m_order.begin(), m_order.end(), 0U);
+  const auto count = static_cast<std::uint32_t>(lights.size());
+  if (count == 0) {
+    return;
+  }
+  m_nodes.reserve(2 * lights.size());
+  build(lights, 0, count);
+  m_below.reserve(lights.size() + 1);
+  m_below.push_back(0.0);
+  const bool isBlack = !(m_nodes[0].intensity > 0.0F);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    m_position[m_order[i]] = i;
+    m_below.push_back(m_below.back() + (isBlack ? 1.0 : static_cast<double>(lights[m_order[i]].intensity)));
+  }
+}
+
+std::uint32_t LightTree::split(const std::vector<LightBounds>& lights, std::uint32_t begin, std::uint32_t end) {
+  const auto first = m_order.begin() + begin;
+  const auto last = m_order.begin() + end;
+  const auto far = std::partition(first, last, [&](std::uint32_t light) { return !lights[light].isInfinite; });
+  if (far != first && far != last) {
+    return static_cast<std::uint32_t>(far - m_order.begin());
+  }
+  Vec3 least = Vec3::Constant(std::numeric_limits<float>::infinity());
+  Vec3 most = -least;
+  for (auto i = first; i != last; ++i) {
+    const Vec3 twice = lights[*i].least + lights[*i].most;
+    least = least.cwiseMin(twice);
+    most = most.cwiseMax(twice);
+  }
+  Eigen::Index axis = 0;
+  (most - least).maxCoeff(&axis);
+  const std::uint32_t middle = begin + (end - begin) / 2;
+  // By number where places are equal: the same tree whatever the library.
+  std::nth_element(first, m_order.begin() + middle, last, [&](std::uint32_t a, std::uint32_t b) {
+    const float placeA = lights[a].least[axis] + lights[a].most[axis];
+    const float placeB = lights[b].least[axis] + lights[b].most[axis];
+    return placeA != placeB ? placeA < placeB : a < b;
+  });
+  return middle;
+}
+
+LightTree::Built LightTree::build(const std::vector<LightBounds>& lights, std::uint32_t begin, std::uint32_t end) {
+  const std::size_t index = m_nodes.size();
+  m_nodes.emplace_back();
+  Node node{};
+  node.begin = begin;
+  node.end = end;
+  Built built{};
+  if (end - begin == 1) {
+    const LightBounds& light = lights[m_order[begin]];
+    built = {light.least, light.most, {light.axis, light.spread}};
+    node.intensity = light.intensity;
+    node.isInfinite = light.isInfinite;
+  } else {
+    const std::uint32_t middle = split(lights, begin, end);
+    const Built left = build(lights, begin, middle);
+    node.right = static_cast<std::uint32_t>(m_nodes.size());
+    const Built right = build(lights, middle, end);
+    const Node& first = m_nodes[index + 1];
+    const Node& second = m_nodes[node.right];
+    built = {left.least.cwiseMin(right.least), left.most.cwiseMax(right.most), united(left.cone, right.cone)};
+    node.intensity = first.intensity + second.intensity;
+    node.isInfinite = first.isInfinite && second.isInfinite;
+  }
+  node.center = 0.5F * (built.least + built.most);
+  node.radius = 0.5F * (built.most - built.least).norm();
+  node.axis = built.cone.axis;
+  node.cosSpread = std::cos(built.cone.spread);
+  node.sinSpread = std::sin(built.cone.spread);
+  m_nodes[index] = node;
+  return built;
+}
+
+namespace {
+
+/// Cosine and sine of max(0, a - b), angles within 0 ... pi.
+struct Angle {
+  float cosine;
+  float sine;
+};
+Angle less(const Angle& a, const Angle& b) {
+  if (a.cosine >= b.cosine) {
+    return {1.0F, 0.0F};
+  }
+  return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
+}
+Angle fromCosine(float cosine) {
+  return {cosine, std::sqrt(std::max(0.0F, 1.0F - cosine * cosine))};
+}
+
+}  // namespace
+
+float LightTree::importance(const Node& node, const Vec3& place, const Vec3& normal) {
+  const Angle spread{node.cosSpread, node.sinSpread};
+  if (node.isInfinite) {
+    return node.intensity * std::max(0.0F, less(fromCosine(normal.dot(node.axis)), spread).cosine);
+  }
+  const Vec3 towards = node.center - place;
+  const float squared = towards.squaredNorm();
+  const float radiusSquared = node.radius * node.radius;
+  if (squared <= radiusSquared) {
+    return node.intensity / radiusSquared;
+  }
+  const float distance = std::sqrt(squared);
+  const Angle seen{std::sqrt(1.0F - radiusSquared / squared), node.radius / distance};
+  const float received = less(fromCosine(normal.dot(towards) / distance), seen).cosine;
+  if (!(received > 0.0F)) {
+    return 0.0F;
+  }
+  const Angle leaving = less(fromCosine(-node.axis.dot(towards) / distance), spread);
+  return node.intensity * received * std::max(0.0F, less(leaving, seen).cosine) / squared;
+}
+
+std::uint32_t LightTree::draw(std::uint32_t begin, std::uint32_t end, double u) const {
+  if (end - begin == 1) {
+    return begin;
+  }
+  const double place = m_below[begin] + u * (m_below[end] - m_below[begin]);
+  const auto first = m_below.begin() + begin + 1;
+  const auto last = m_below.begin() + end;
+  // A light of no intensity has an empty step, which is passed over; rounding may not carry beyond the range.
+  return static_cast<std::uint32_t>(std::upper_bound(first, last, place) - m_below.begin()) - 1;
+}
+
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "materials/bsdf.h"
+#include "materials/conductor.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "metamer/spectral_ref/scene.h"
+#include "wavelengths/lanes.h"
+
+namespace metamer::spectral_ref {
+
+/// A material with what is worked out once.
+struct PreparedMaterial {
+  Material::Kind kind = Material::Kind::Black;
+  SpectrumId colour = 0;
+  SpectrumId eta = 0;
+  SpectrumId absorption = 0;
+  bool hasIndex = false;
+  bool isDispersive = false;
+  float roughness = 0;
+  GgxEnergy energy;
+  std::vector<float> perCell;  ///< conductor: mean Fresnel reflectance; dielectric: index
+};
+
+/// The BSDF at a point for the wavelengths of a path, whichever kind it is.
+template <int C, bool kDispersive>
+class Bsdf {
+ public:
+  Bsdf(const PreparedMaterial& material, const SpectrumTables& spectra, const WavelengthSet<C>& wavelengths)
+      : m_kind(material.kind) {
+    switch (m_kind) {
+      case Material::Kind::Diffuse:
+        m_diffuse.reflectance = spectra.at(material.colour, wavelengths);
+        break;
+      case Material::Kind::RoughConductor:
+        m_conductor.ggx.alpha = material.roughness;
+        m_conductor.energy = &material.energy;
+        m_conductor.isIndex = material.hasIndex;
+        m_conductor.eta = spectra.at(material.eta, wavelengths);
+        m_conductor.k = spectra.at(material.absorption, wavelengths);
+        m_conductor.mean = fromCells(material, wavelengths);
+        break;
+      case Material::Kind::SmoothDielectric:
+      case Material::Kind::RoughDielectric:
+        m_dielectric.index = fromCells(material, wavelengths);
+        m_dielectric.isDispersive = material.isDispersive;
+        m_dielectric.isRough = m_kind == Material::Kind::RoughDielectric;
+        m_dielectric.ggx.alpha = material.roughness;
+        break;
+      case Material::Kind::Black:
+      case Material::Kind::Gel:
+        break;
+    }
+  }
+
+  bool isBlack(const Vec3& out) const {
+    switch (m_kind) {
+      case Material::Kind::Diffuse:
+      case Material::Kind::RoughConductor:
+        return out.z() <= 0.0F;
+      case Material::Kind::SmoothDielectric:
+      case Material::Kind::RoughDielectric:
+        return false;
+      case Material::Kind::Black:
+      case Material::Kind::Gel:
+        break;
+    }
+    return true;
+  }
+  bool isDelta() const { return m_kind == Material::Kind::SmoothDielectric; }
+  const Lanes<C>& diffuseReflectance() const { return m_diffuse.reflectance; }
+
+  /// Directions in the frame of the surface, both away from it.
+  BsdfValue<C, kDispersive> evaluate(const Vec3& out, const Vec3& in) const {
+    switch (m_kind) {
+      case Material::Kind::RoughConductor:
+        return m_conductor.evaluate(out, in);
+      case Material::Kind::RoughDielectric:
+        return m_dielectric.evaluate(out, in);
+      default:
+        return m_diffuse.evaluate(out, in);
+    }
+  }
+  /// @param lobe  gives one more random number where the kind needs it
+  template <typename Lobe>
+  BsdfSample<C, kDispersive> sample(const Vec3& out, float u, float v, const Lobe& lobe) const {
+    switch (m_kind) {
+      case Material::Kind::RoughConductor:
+        return m_conductor.sample(out, u, v, lobe());
+      case Material::Kind::SmoothDielectric:
+      case Material::Kind::RoughDielectric:
+        return m_dielectric.sample(out, u, v, lobe());
+      default:
+        return m_diffuse.sample(out, u, v);
+    }
+  }
+
+ private:
+  static Lanes<C> fromCells(const PreparedMaterial& material, const WavelengthSet<C>& wavelengths) {
+    Lanes<C> values;
+    for (int k = 0; k < C; ++k) {
+      values[k] = material.perCell[static_cast<std::size_t>(wavelengths.cell[static_cast<std::size_t>(k)])];
+    }
+    return values;
+  }
+
+  Material::Kind m_kind;
+  DiffuseBsdf<C, kDispersive> m_diffuse;
+  ConductorBsdf<C, kDispersive> m_conductor;
+  DielectricBsdf<C, kDispersive> m_dielectric;
+};
+
+class MaterialTable {
+ public:
+  explicit MaterialTable(const Scene& scene);
+
+  template <int C, bool kDispersive>
+  Bsdf<C, kDispersive> bsdf(std::uint32_t material, const SpectrumTables& spectra,
+                            const WavelengthSet<C>& wavelengths) const {
+    return {m_materials[material], spectra, wavelengths};
+  }
+  bool isDiffuse(std::uint32_t material) const { return m_materials[material].kind == Material::Kind::Diffuse; }
+  bool hasGels() const { return m_hasGels; }
+  bool isGel(std::uint32_t material) const { return m_materials[material].kind == Material::Kind::Gel; }
+  SpectrumId gelTransmittance(std::uint32_t material) const { return m_materials[material].colour; }
+  /// Whether any material sends wavelengths different ways.
+  bool isDispersive() const { return m_isDispersive; }
+
+ private:
+  std::vector<PreparedMaterial> m_materials;
+  bool m_hasGels = false;
+  bool m_isDispersive = false;
+};
+
+}  // namespace metamer::spectral_ref

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_file/scene_mesh.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+
+namespace metamer::spectral_ref {
+namespace {
+
+bool isSound(const std::array<std::uint32_t, 3>& triangle, const std::vector<std::array<float, 3>>& vertices) {
+  std::array<Eigen::Vector3d, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& vertex = vertices[triangle[k]];
+    for (const float coordinate : vertex) {
+      constexpr float kFarthest = 1e9F;
+      if (!(std::abs(coordinate) <= kFarthest)) {
+        return false;
+      }
+    }
+    corners[k] = Eigen::Vector3f(vertex[0], vertex[1], vertex[2]).cast<double>();
+  }
+  const Eigen::Vector3d a = corners[1] - corners[0];
+  const Eigen::Vector3d b = corners[2] - corners[0];
+  return a.cross(b).norm() > 1e-9 * std::max(a.squaredNorm(), b.squaredNorm());
+}
+
+}  // namespace
+
+Mesh readMesh(const YamlValue& file, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / file.text();
+  const std::string extension = path.extension().string();
+  if (extension != ".obj" && extension != ".ply") {
+    throw file.error("must be an .obj or .ply file");
+  }
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (scene == nullptr) {
+    throw file.error("", "'" + path.string() + "' cannot be read: " + importer.GetErrorString());
+  }
+  Mesh mesh;
+  mesh.file = path.string();
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& part = *scene->mMeshes[m];
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (unsigned i = 0; i < part.mNumVertices; ++i) {
+      mesh.vertices.push_back({part.mVertices[i].x, part.mVertices[i].y, part.mVertices[i].z});
+    }
+    for (unsigned i = 0; i < part.mNumFaces; ++i) {
+      const aiFace& face = part.mFaces[i];
+      if (face.mNumIndices != 3) {
+        continue;  // points and lines have no surface
+      }
+      const std::array<std::uint32_t, 3> triangle = {first + face.mIndices[0], first + face.mIndices[1],
+                                                     first + face.mIndices[2]};
+      if (isSound(triangle, mesh.vertices)) {
+        mesh.triangles.push_back(triangle);
+      } else {
+        ++mesh.dropped;
+      }
+    }
+  }
+  if (mesh.triangles.empty()) {
+    throw file.error("", "'" + path.string() + "' has no triangle with an area; mend the mesh");
+  }
+  // What no triangle uses may be no number; the hierarchy must not see it.
+  for (auto& vertex : mesh.vertices) {
+    if (!std::all_of(vertex.begin(), vertex.end(), [](float v) { return std::isfinite(v); })) {
+      vertex = {0.0F, 0.0F, 0.0F};
+    }
+  }
+  return mesh;
+}
+
+}  // namespace metamer::spectral_ref

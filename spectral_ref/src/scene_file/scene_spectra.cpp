@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_file/scene_spectra.h"
+
+#include <cmath>
+
+#include "metamer/spectral/near_names.h"
+#include "metamer/spectral/spectrum.h"
+
+namespace metamer::spectral_ref {
+namespace {
+
+using spectral::DomainSamples;
+using spectral::InputError;
+using spectral::SpectralQuantity;
+using spectral::Spectrum;
+
+using Use = SceneSpectra::Use;
+
+SpectralQuantity quantityOf(Use use) {
+  switch (use) {
+    case Use::Emission:
+      return SpectralQuantity::SpectralPowerDistribution;
+    case Use::Transmittance:
+      return SpectralQuantity::Transmittance;
+    case Use::Reflectance:
+    case Use::Index:  // holds its end values, as a reflectance does
+      break;
+  }
+  return SpectralQuantity::Reflectance;
+}
+
+/// Runs a look-up and says in its error where in the scene the name stands.
+template <typename Look>
+auto lookUp(const YamlValue& value, const Look& look) {
+  try {
+    return look();
+  } catch (const InputError& error) {
+    throw value.error("", error.what());
+  }
+}
+
+/// Radiance beyond this, or a sum of many such, is beyond single precision's comfort.
+constexpr double kLargestScale = 1e12;
+
+}  // namespace
+
+SceneSpectra::SceneSpectra(const std::optional<YamlValue>& section, Scene& scene, const spectral::DataLibrary& library,
+                           std::filesystem::path folder)
+    : m_scene(scene), m_library(library), m_folder(std::move(folder)) {
+  if (section) {
+    const YamlSection names(*section, {});
+    for (const std::string& name : names.keys()) {
+      m_definitions.emplace(name, *names.find(name));
+    }
+  }
+}
+
+SpectrumId SceneSpectra::add(const DomainSamples& samples) {
+  m_scene.spectra.push_back(samples);
+  return static_cast<SpectrumId>(m_scene.spectra.size() - 1);
+}
+
+SpectrumId SceneSpectra::find(const YamlValue& value, Use use) {
+  const std::string name = value.text();
+  const auto known = m_resolved.find({name, use});
+  if (known != m_resolved.end()) {
+    return known->second;
+  }
+  const auto definition = m_definitions.find(name);
+  DomainSamples samples;
+  if (definition != m_definitions.end()) {
+    samples = read(definition->second, use);
+  } else if (value.isNumber()) {
+    samples.setConstant(value.number(0.0, kLargestScale));
+  } else {
+    samples = fromLibrary(value, name, use);
+  }
+  if ((use == Use::Reflectance || use == Use::Transmittance) && samples.maxCoeff() > 1.0) {
+    throw value.error("is above 1 somewhere; a surface cannot give back more light than it gets");
+  }
+  const SpectrumId id = add(samples);
+  m_resolved.emplace(std::pair(name, use), id);
+  return id;
+}
+
+DomainSamples SceneSpectra::fromLibrary(const YamlValue& value, const std::string& name, Use use) const {
+  try {
+    if (use == Use::Emission) {
+      return m_library.illuminant(name, m_folder).onDomain();
+    }
+    if (use == Use::Transmittance) {
+      return m_library.filter(name, m_folder).onDomain();
+    }
+  } catch (const InputError& error) {
+    throw value.error("", std::string("no such name under 'spectra:'; ") + error.what());
+  }
+  std::vector<std::string> names;
+  for (const auto& [defined, definition] : m_definitions) {
+    names.push_back(defined);
+  }
+  const auto near = spectral::nearNames(name, names, 2);
+  throw value.error("no such name under 'spectra:'" + (near.empty() ? "" : "; did you mean '" + near.front() + "'?"));
+}
+
+DomainSamples SceneSpectra::read(const YamlValue& definition, Use use) const {
+  const YamlSection section(definition, {"illuminant", "filter", "density", "reflectance", "sample", "wavelengths",
+                                         "values", "constant", "file", "scale"});
+  const auto scaleValue = section.find("scale");
+  const double scale = scaleValue ? scaleValue->number(0.0, kLargestScale) : 1.0;
+  const auto refuse = [&](bool wrong, const char* what) {
+    if (wrong) {
+      throw section.error("", std::string(what) + " and is used as something else; define another spectrum for that");
+    }
+  };
+  int kinds = 0;
+  for (const char* kind : {"illuminant", "filter", "reflectance", "wavelengths", "constant", "file"}) {
+    kinds += section.find(kind) ? 1 : 0;
+  }
+  if (kinds != 1) {
+    throw section.error("",
+                        "must have one of illuminant, filter, reflectance, wavelengths (with values), constant, file");
+  }
+  DomainSamples samples;
+  if (const auto name = section.find("illuminant")) {
+    refuse(use != Use::Emission, "is an illuminant");
+    samples = lookUp(*name, [&] { return m_library.illuminant(name->text(), m_folder).onDomain(); });
+  } else if (const auto filter = section.find("filter")) {
+    refuse(use != Use::Transmittance, "is a filter");
+    samples = lookUp(*filter, [&] { return m_library.filter(filter->text(), m_folder).onDomain(); });
+    const auto density = section.find("density");
+    samples = samples.array().pow(density ? density->number(0.0, 100.0) : 1.0);
+  } else if (const auto set = section.find("reflectance")) {
+    refuse(use != Use::Reflectance, "is a reflectance");
+    const std::string wanted = section.require("sample", "is missing; name a sample of the set").text();
+    const auto reflectances = lookUp(*set, [&] { return m_library.reflectances(set->text(), m_folder); });
+    std::vector<std::string> names;
+    for (const Spectrum& sample : reflectances.samples) {
+      if (sample.name() == wanted) {
+        return sample.onDomain() * scale;
+      }
+      names.push_back(sample.name());
+    }
+    const auto near = spectral::nearNames(wanted, names, 3);
+    throw section.find("sample")->error("is not in the set" +
+                                        (near.empty() ? std::string() : "; near names: " + near.front()));
+  } else if (const auto wavelengths = section.find("wavelengths")) {
+    const auto values = section.require("values", "is missing; one value a wavelength");
+    samples = lookUp(*wavelengths, [&] {
+      return Spectrum(section.field(), quantityOf(use), wavelengths->numbers(), values.numbers()).onDomain();
+    });
+  } else if (const auto constant = section.find("constant")) {
+    samples.setConstant(constant->number(0.0, kLargestScale));
+  } else {
+    const auto file = section.find("file");
+    samples = lookUp(*file, [&] {
+      // A file without folder would be taken for a name.
+      const std::string relative = (m_folder / file->text()).string();
+      const std::string path = relative.find('/') == std::string::npos ? "./" + relative : relative;
+      switch (use) {
+        case Use::Emission:
+          return m_library.illuminant(path).onDomain();
+        case Use::Transmittance:
+          return m_library.filter(path).onDomain();
+        case Use::Reflectance:
+        case Use::Index:
+          break;
+      }
+      return m_library.reflectances(path).samples.front().onDomain();
+    });
+  }
+  return samples * scale;
+}
+
+std::vector<SpectrumId> SceneSpectra::set(const YamlValue& value) {
+  const auto reflectances = lookUp(value, [&] { return m_library.reflectances(value.text(), m_folder); });
+  std::vector<SpectrumId> ids;
+  for (const Spectrum& sample : reflectances.samples) {
+    ids.push_back(add(sample.onDomain().cwiseMin(1.0)));
+  }
+  return ids;
+}
+
+}  // namespace metamer::spectral_ref

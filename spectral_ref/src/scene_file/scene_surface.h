@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene_file/scene_spectra.h"
+
+namespace metamer::spectral_ref {
+
+/// Keys of a shape that say what it is made of.
+inline constexpr const char* kSurfaceKeys[] = {"diffuse", "conductor", "dielectric", "gel", "emission"};
+
+/// The material and emission of a shape.
+Surface readSurface(const YamlSection& shape, SceneSpectra& spectra, Scene& scene);
+
+/// Adds a diffuse material.
+std::uint32_t addDiffuse(Scene& scene, SpectrumId reflectance);
+
+}  // namespace metamer::spectral_ref

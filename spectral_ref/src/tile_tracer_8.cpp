@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "tile_tracer_template.h"
-
-namespace metamer::spectral_ref {
-
-template std::unique_ptr<TileTracer> makeTileTracer<8>(const TracerContext&);
-
-}  // namespace metamer::spectral_ref

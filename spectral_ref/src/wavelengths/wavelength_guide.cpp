@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wavelengths/wavelength_guide.h"
+
+#include <tbb/parallel_for.h>
+
+namespace metamer::spectral_ref {
+namespace {
+
+constexpr int kRadius = 4;         ///< blocks, of the smoothing
+constexpr float kLikeness = 0.3F;  ///< relative difference of two tints at which their weight has fallen to 0.6
+/// Half width in cells of what a cell's expected luminance is scaled to.
+constexpr int kScaleCells = 10;
+/// Paths in a cell that count as much as what was expected there: their mean is then known to a hundredth, and the
+/// density is smoother than what it divides.
+constexpr double kExpectedPaths = 1e4;
+/// Samples a pixel whose noise is judged: as many as each replicate of a picture of 64 samples has.
+constexpr int kJudged = 16;
+/// Relative variance of that many samples with uniform lanes up to which wavelengths stay uniform: other noise is
+/// larger then, and reflectances may be less smooth in a density drawn from than in wavelength.
+constexpr double kLittleVariance = 1.5e-4;
+/// Relative variance of a block's light drawn from the picture's density from which the block gets its own: a quarter
+/// of the samples or less then serve it. Nearer ones are better off with the picture's smooth density: the steps
+/// between bins cost stratified samples more than a slope does.
+constexpr double kUnlike = 8.0;
+/// The same by bands, which show less of it, from which histograms are compared at all.
+constexpr float kUnlikeBands = 1.0F;
+
+/// Relative variance of lanes evenly spaced over the spectrum, one set from each of kJudged equal strata.
+double varianceWithUniformLanes(const spectral::DomainSamples& worth, int lanes) {
+  constexpr int kPlaces = 32;  // in a stratum
+  const int strata = kJudged * lanes;
+  double variance = 0;
+  for (int stratum = 0; stratum < strata; ++stratum) {
+    double sum = 0;
+    double squares = 0;
+    for (int place = 0; place < kPlaces; ++place) {
+      const double u = (stratum + (place + 0.5) / kPlaces) / strata;
+      const double value = worth[static_cast<int>(u * kCells)];
+      sum += value / kPlaces;
+      squares += value * value / kPlaces;
+    }
+    variance += squares - sum * sum;
+  }
+  const double mean = worth.mean() * strata;
+  return mean > 0 ? variance / (mean * mean) : 0.0;
+}
+
+bool isEven(const spectral::DomainSamples& worth, int lanes) {
+  return varianceWithUniformLanes(worth, lanes) < kLittleVariance;
+}
+
+}  // namespace
+
+WavelengthGuide::WavelengthGuide(int width, int height, int lanes, const spectral::DomainSamples& expected)
+    : m_side(isEven(expected, lanes) ? 2 : 1),
+      m_width((width + m_side - 1) / m_side),
+      m_height((height + m_side - 1) / m_side),
+      m_lanes(lanes),
+      m_expected(expected),
+      m_picture(expected),
+      m_learnt(static_cast<std::size_t>(m_width) * static_cast<std::size_t>(m_height) * kBins),
+      m_hasOwn(m_learnt.size() / kBins) {}
+
+void WavelengthGuide::add(const Spectrum& spectrum) {
+  const std::lock_guard lock(m_mutex);
+  for (std::size_t i = 0; i < kCells; ++i) {
+    m_spectrum.worth[i].add(spectrum.worth[i]);
+    m_spectrum.paths[i] += spectrum.paths[i];
+  }
+}
+
+spectral::DomainSamples WavelengthGuide::learntSpectrum() const {
+  spectral::DomainSamples learnt = spectral::DomainSamples::Zero();
+  for (int cell = 0; cell < kCells; ++cell) {
+    learnt[cell] = m_spectrum.worth[static_cast<std::size_t>(cell)].value();
+  }
+  // Where few paths have come by, the shape that was expected, scaled to what came by around.
+  spectral::DomainSamples mixed;
+  for (int cell = 0; cell < kCells; ++cell) {
+    const int first = std::max(cell - kScaleCells, 0);
+    const int count = std::min(cell + kScaleCells, kCells - 1) - first + 1;
+    const double around = m_expected.segment(first, count).sum();
+    const double scaled = around > 0 ? m_expected[cell] * learnt.segment(first, count).sum() / around : learnt[cell];
+    const auto paths = static_cast<double>(m_spectrum.paths[static_cast<std::size_t>(cell)]);
+    mixed[cell] = (paths * learnt[cell] + kExpectedPaths * scaled) / (paths + kExpectedPaths);
+  }
+  return mixed;
+}
+
+void WavelengthGuide::sumBands() {
+  constexpr std::size_t kBinsABand = kBins / kBands;
+  std::vector<Bands> own(m_hasOwn.size());
+  for (std::size_t i = 0; i < m_learnt.size(); ++i) {
+    own[i / kBins][i % kBins / kBinsABand] += m_learnt[i];
+  }
+  m_bands.assign(own.size(), {});
+  tbb::parallel_for(0, m_height, [&](int y) {
+    for (int x = 0; x < m_width; ++x) {
+      Bands& bands = m_bands[blockAt(x, y)];
+      for (int row = std::max(0, y - 1); row <= std::min(m_height - 1, y + 1); ++row) {
+        for (int column = std::max(0, x - 1); column <= std::min(m_width - 1, x + 1); ++column) {
+          const Bands& other = own[blockAt(column, row)];
+          for (std::size_t band = 0; band < kBands; ++band) {
+            bands[band] += other[band];
+          }
+        }
+      }
+    }
+  });
+}
+
+bool WavelengthGuide::isUnlikePicture(std::size_t block) const {
+  const Bands& bands = m_bands[block];
+  float sum = 0;
+  for (const float band : bands) {
+    sum += band;
+  }
+  float distance = -1.0F;  // sum of (a - b)^2 / b of two densities: that of a^2 / b, less 1
+  for (std::size_t band = 0; band < kBands; ++band) {
+    double picture = 0;
+    for (std::size_t bin = band * kBins / kBands; bin < (band + 1) * kBins / kBands; ++bin) {
+      picture += m_learntByPicture[bin];
+    }
+    const float share = bands[band] / sum;
+    distance += share * share / static_cast<float>(picture);
+  }
+  return sum > 0.0F && distance > kUnlikeBands;
+}
+
+WavelengthGuide::Bins WavelengthGuide::smoothed(std::size_t block) const {
+  const int x = static_cast<int>(block % static_cast<std::size_t>(m_width));
+  const int y = static_cast<int>(block / static_cast<std::size_t>(m_width));
+  const Bands& bands = m_bands[block];
+  Bins bins{};
+  double sum = 0;
+  for (int row = std::max(0, y - kRadius); row <= std::min(m_height - 1, y + kRadius); ++row) {
+    for (int column = std::max(0, x - kRadius); column <= std::min(m_width - 1, x + kRadius); ++column) {
+      const std::size_t other = blockAt(column, row);
+      float difference = 0;
+      float size = 0;
+      for (std::size_t band = 0; band < kBands; ++band) {
+        const float a = bands[band];
+        const float b = m_bands[other][band];
+        difference += (a - b) * (a - b);
+        size += 0.25F * (a + b) * (a + b);
+      }
+      if (!(size > 0.0F)) {
+        continue;
+      }
+      const auto distance = static_cast<float>((column - x) * (column - x) + (row - y) * (row - y));
+      const auto weight = static_cast<double>(
+          std::exp(-0.5F * difference / (kLikeness * kLikeness * size) - 2.0F * distance / (kRadius * kRadius)));
+      for (std::size_t bin = 0; bin < kBins; ++bin) {
+        const double learnt = weight * static_cast<double>(m_learnt[other * kBins + bin]);
+        bins[bin] += learnt;
+        sum += learnt;
+      }
+    }
+  }
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    bins[bin] = sum > 0 ? bins[bin] / sum : m_learntByPicture[bin];
+  }
+  return bins;
+}
+
+void WavelengthGuide::buildBlock(std::size_t block) {
+  if (!isUnlikePicture(block)) {
+    return;
+  }
+  const Bins learnt = smoothed(block);
+  double distance = -1.0;
+  double below = 0;
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    distance += learnt[bin] * learnt[bin] / m_learntByPicture[bin];
+    m_below[block * kBins + bin] = static_cast<std::uint16_t>(std::floor(below * static_cast<double>(kUnits)));
+    const auto share = static_cast<double>(kPictureShare);
+    below += share * static_cast<double>(m_pictureBelow[bin + 1] - m_pictureBelow[bin]) + (1.0 - share) * learnt[bin];
+  }
+  m_hasOwn[block] = distance > kUnlike ? 1 : 0;
+}
+
+void WavelengthGuide::build() {
+  const spectral::DomainSamples learnt = learntSpectrum();
+  m_isUniform = isEven(learnt, m_lanes);
+  const WavelengthTable table(learnt);
+  m_picture = m_isUniform ? WavelengthTable(spectral::DomainSamples::Zero()) : table;
+  for (std::size_t bin = 0; bin < kBins; ++bin) {
+    const auto first = static_cast<std::int32_t>(bin) * kCellsABin;
+    const std::int32_t end = bin + 1 < kBins ? first + kCellsABin : kCells;
+    m_learntByPicture[bin] = static_cast<double>(table.below(end)) - static_cast<double>(table.below(first));
+    m_pictureBelow[bin + 1] = m_picture.below(end);
+  }
+  m_below.resize(m_learnt.size());
+  sumBands();
+  tbb::parallel_for(std::size_t{0}, m_hasOwn.size(), [&](std::size_t block) { buildBlock(block); });
+  m_isReady = true;
+}
+
+spectral::DomainSamples WavelengthGuide::density(std::size_t block) const {
+  spectral::DomainSamples samples;
+  for (std::int32_t cell = 0; cell < kCells; ++cell) {
+    samples[cell] = static_cast<double>(hasOwn(block) ? own(block).density(cell) : m_picture.density(cell));
+  }
+  return samples;
+}
+
+}  // namespace metamer::spectral_ref
