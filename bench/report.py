@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """From the figures in bench.json to tables and plots: out/bench.md, docs/accuracy.md, docs/performance.md.
 
-Everything written here comes from the JSON alone, so that pages and figures cannot drift apart.
+    script/bench && build/venv/bin/python bench/report.py out/bench.json docs     # publishes a run
+
+Everything written here comes from the JSON alone, so that pages and figures cannot drift apart. docs/bench.json keeps what
+the pages show of a run; the run as it was measured goes into release archives.
 """
 
 import argparse
@@ -52,30 +55,80 @@ def section_markdown(name, result, heading, pictures=None):
     return lines + ["", f"*{result['machine']}; OpenColorIO {result['ocio']}; script/bench --only {name}.*"]
 
 
+def rounded(value):
+    """Floats to six significant digits: more is noise of the machine that measured."""
+    if isinstance(value, float):
+        return float(f"{value:.6g}")
+    if isinstance(value, dict):
+        return {key: rounded(inner) for key, inner in value.items()}
+    return [rounded(inner) for inner in value] if isinstance(value, list) else value
+
+
+def raw_of(name, figures):
+    """(dictionary, key) of each curve that only the section's plot needs, where the figures still hold it."""
+    section, found = importlib.import_module(f"sections.{name}"), []
+    for path in getattr(section, "RAW", ()):
+        *way, last = path.split("/")
+        inner = figures
+        for step in way:
+            inner = inner[step]
+        if last in inner:
+            found.append((inner, last))
+    return found
+
+
+def published(results):
+    """What docs/bench.json keeps of a run: the figures that the pages show."""
+    kept = rounded(ordered(results))
+    for name, result in kept.items():
+        for inner, key in raw_of(name, result["figures"]):
+            del inner[key]
+    return kept
+
+
+def published_text(results):
+    """A line a row, so that a new run shows as the rows that moved."""
+    def lines(value, depth):
+        compact = json.dumps(value)
+        if len(compact) < 240 or not isinstance(value, (dict, list)):
+            return compact
+        pad, end = " " * (depth + 1), " " * depth
+        if isinstance(value, dict):
+            inner = [f"{pad}{json.dumps(key)}: {lines(one, depth + 1)}" for key, one in value.items()]
+            return "{\n" + ",\n".join(inner) + f"\n{end}}}"
+        return "[\n" + ",\n".join(pad + lines(one, depth + 1) for one in value) + f"\n{end}]"
+
+    return lines(results, 0) + "\n"
+
+
 def digest(figures):
     """Of what a picture is drawn from."""
     return hashlib.sha256(json.dumps(figures, sort_keys=True).encode()).hexdigest()
 
 
 def pictures(results):
-    """{name without prefix: (the figures it shows, what draws it to a path)}"""
-    found = {}
+    """{name without prefix: (the published figures of what it shows, what draws it to a path)}"""
+    found, kept = {}, published(results)
     for name in results:
         section = importlib.import_module(f"sections.{name}")
         if hasattr(section, "plot"):
             figures = results[name]["figures"]
-            found[f"{name}.png"] = (figures, lambda path, s=section, f=figures: s.plot(f, path))
+            found[f"{name}.png"] = (kept[name]["figures"], lambda path, s=section, f=figures: s.plot(f, path))
     if fronts.sources(results):
-        found[fronts.PICTURE] = (fronts.sources(results), lambda path: fronts.draw(results, path))
+        found[fronts.PICTURE] = (fronts.sources(kept), lambda path: fronts.draw(results, path))
     return found
 
 
 def write_plots(results, folder, prefix):
-    """Each picture says in its text "Figures" which figures it shows."""
+    """Each picture says in its text "Figures" which figures it shows. Those that need curves of the run are left as they
+    are where `results` is what docs/bench.json kept of it."""
     from PIL import Image, PngImagePlugin
 
     for name, (figures, draw) in pictures(results).items():
-        path = folder / f"{prefix}{name}"
+        path, section = folder / f"{prefix}{name}", name.removesuffix(".png")
+        if section in results and hasattr(importlib.import_module(f"sections.{section}"), "RAW") and not raw_of(
+                section, results[section]["figures"]):
+            continue
         draw(path)
         text = PngImagePlugin.PngInfo()
         text.add_text("Figures", digest(figures))
@@ -118,13 +171,15 @@ def page(results, name):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Writes the pages of docs/ that show bench.json.")
+    parser = argparse.ArgumentParser(description="Writes the pages of docs/ that show a run, and its figures.")
     parser.add_argument("json", type=Path)
     parser.add_argument("docs", type=Path)
     arguments = parser.parse_args()
     results = ordered(json.loads(arguments.json.read_text(encoding="utf-8")))
+    kept = published(results)
+    (arguments.docs / "bench.json").write_text(published_text(kept), encoding="utf-8")
     for name in PAGES:
-        (arguments.docs / f"{name}.md").write_text(page(results, name), encoding="utf-8")
+        (arguments.docs / f"{name}.md").write_text(page(kept, name), encoding="utf-8")
     (arguments.docs / "images").mkdir(exist_ok=True)
     write_plots(results, arguments.docs / "images", "bench_")
     return 0

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shows every look of metamer.ocio on the demo photograph: docs/images/configs_*.jpg, and docs/configs.md's tables.
+"""Shows every look of metamer.ocio on the demo photograph: docs/images/configs_*.jpg.
 
-The looks are applied by the newest OpenColorIO's Python package, from the config as it lies there.
+script/configs must have made them. The looks are applied by the newest OpenColorIO's Python package, from the config as it lies there.
 """
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 
@@ -15,9 +14,10 @@ import PyOpenColorIO as ocio
 from PIL import Image, ImageDraw, ImageFont
 
 ROOT = Path(__file__).resolve().parent.parent
+MADE = ROOT / "build" / "release" / "configs"  # by script/configs
 sys.path[:0] = [str(ROOT / "demo"), str(ROOT / "configs")]
 
-import generate  # noqa: E402
+import looks as ready_made  # noqa: E402
 import pictures  # noqa: E402
 
 SIDE = 124  # of one picture
@@ -59,7 +59,7 @@ class Sheet:
 
 class Looks:
     def __init__(self):
-        self.config = ocio.Config.CreateFromFile(str(ROOT / "configs" / "metamer.ocio"))
+        self.config = ocio.Config.CreateFromFile(str(MADE / "metamer.ocio"))
         self.before = photograph().astype(np.float32)
 
     def shown(self, name: str) -> np.ndarray:
@@ -70,14 +70,14 @@ class Looks:
 
 
 def adaptation_rows() -> list[str]:
-    return [f"adaptation {adaptation:g}" for adaptation in generate.ADAPTATIONS]
+    return [f"adaptation {adaptation:g}" for adaptation in ready_made.ADAPTATIONS]
 
 
 def light_sheets(looks: Looks) -> None:
-    for key in generate.LIGHTS:
-        others = {other: light for other, light in generate.LIGHTS.items() if other != key}
+    for key in ready_made.LIGHTS:
+        others = {other: light for other, light in ready_made.LIGHTS.items() if other != key}
         sheet = Sheet(adaptation_rows(), ["as shot", *others.values()])
-        for row, adaptation in enumerate(generate.ADAPTATIONS):
+        for row, adaptation in enumerate(ready_made.ADAPTATIONS):
             sheet.put(row, 0, looks.before)
             for column, other in enumerate(others):
                 sheet.put(row, column + 1, looks.shown(f"{key}_to_{other}_{round(100 * adaptation):03}"))
@@ -88,7 +88,7 @@ def filter_sheet(looks: Looks) -> None:
     names = [f"{kind}_{size}" for kind in ("cto", "ctb") for size in ("full", "half", "quarter")] + ["didymium", "bandpass"]
     sheet = Sheet([*adaptation_rows(), "kept exposure"], [name.replace("_", " ") for name in names])
     for column, name in enumerate(names):
-        for row, adaptation in enumerate(generate.ADAPTATIONS):
+        for row, adaptation in enumerate(ready_made.ADAPTATIONS):
             sheet.put(row, column, looks.shown(f"{name}_{round(100 * adaptation):03}"))
     for column, name in enumerate(("nd_03", "nd_06", "nd_09")):
         sheet.put(3, column, looks.shown(name))
@@ -100,50 +100,18 @@ def filter_sheet(looks: Looks) -> None:
 def night_sheet(looks: Looks) -> None:
     sheet = Sheet(["day for night"], ["as shot", *adaptation_rows()])
     sheet.put(0, 0, looks.before)
-    for column, adaptation in enumerate(generate.ADAPTATIONS):
+    for column, adaptation in enumerate(ready_made.ADAPTATIONS):
         sheet.put(0, column + 1, looks.shown(f"day_for_night_{round(100 * adaptation):03}"))
     sheet.save("day_for_night")
 
 
 def camera_sheet(looks: Looks) -> None:
-    sheet = Sheet([key.replace("_", " ") for key in generate.CAMERAS],
-                  [f"as {key.replace('_', ' ')}" for key in generate.CAMERAS])
-    for row, key in enumerate(generate.CAMERAS):
-        for column, other in enumerate(generate.CAMERAS):
+    sheet = Sheet([key.replace("_", " ") for key in ready_made.CAMERAS],
+                  [f"as {key.replace('_', ' ')}" for key in ready_made.CAMERAS])
+    for row, key in enumerate(ready_made.CAMERAS):
+        for column, other in enumerate(ready_made.CAMERAS):
             sheet.put(row, column, looks.before if key == other else looks.shown(f"{key}_as_{other}"))
     sheet.save("cameras")
-
-
-def figure(name: str) -> str:
-    certificate = json.loads((ROOT / "configs" / "luts" / f"{name}.json").read_text(encoding="utf-8"))
-    error, transform = certificate["error"], certificate["transform"]
-    held = {"matrix": "matrix", "identity": "nothing"}.get(transform["representation"], f"{transform.get('size')}³")
-    return f"{error['mean']:.2f} / {error['p99']:.1f} ({held})"
-
-
-def tables() -> str:
-    """What the page says of each look, from the certificates."""
-    lines = ["| shot under | " + " | ".join(generate.LIGHTS.values()) + " |", "| --- " * (len(generate.LIGHTS) + 1) + "|"]
-    for key, light in generate.LIGHTS.items():
-        cells = ["" if key == other else figure(f"{key}_to_{other}_050") for other in generate.LIGHTS]
-        lines.append(f"| **{light}** | " + " | ".join(cells) + " |")
-    lines += ["", "| filter | adaptation 0 | 0.5 | 1 |", "| --- | --- | --- | --- |"]
-    for name in ("cto_full", "cto_half", "cto_quarter", "ctb_full", "ctb_half", "ctb_quarter", "didymium", "bandpass", "day_for_night"):
-        lines.append(f"| {name} | " + " | ".join(figure(f"{name}_{n}") for n in ("000", "050", "100")) + " |")
-    lines += ["| nd_03, nd_06, nd_09 | | | " + figure("nd_03") + " |", ""]
-    lines += ["| shot with | " + " | ".join(f"as {key}" for key in generate.CAMERAS) + " |", "| --- " * (len(generate.CAMERAS) + 1) + "|"]
-    for key in generate.CAMERAS:
-        cells = ["" if key == other else figure(f"{key}_as_{other}") for other in generate.CAMERAS]
-        lines.append(f"| **{key}** | " + " | ".join(cells) + " |")
-    return "\n".join(lines) + "\n"
-
-
-def update_page() -> None:
-    page = ROOT / "docs" / "configs.md"
-    begin, end = "<!-- figures: configs/pictures.py -->\n", "<!-- end of figures -->\n"
-    text = page.read_text(encoding="utf-8")
-    head, rest = text.split(begin)
-    page.write_text(head + begin + "\n" + tables() + "\n" + end + rest.split(end)[1], encoding="utf-8")
 
 
 def main() -> int:
@@ -152,7 +120,6 @@ def main() -> int:
     filter_sheet(looks)
     night_sheet(looks)
     camera_sheet(looks)
-    update_page()
     return 0
 
 

@@ -17,6 +17,8 @@ CASES = [("FL11", "FL11", "", "≥ 2"), ("HP1", "HP1", "", "≥ 2"), ("A through
          ("A", "A", "", "≥ 0.95"), ("D65", "D65", "", "≥ 0.95")]
 SAMPLES = (16, 64, 256)
 TRUTH_SAMPLES = 2048
+# Curves for the plot alone.
+RAW = ("histogram/optimum", "histogram/luminance_optimum", "histogram/density")
 LANES = (1, 4, 8, 16)
 # Within the patch, of the picture's width and height.
 PATCH, PATCH_PLACE = "red", (0.43, 0.63)

@@ -64,10 +64,6 @@ class Defaults(unittest.TestCase):
         self.assertEqual(defaults.beaten(quick(4.9)), [])
         self.assertEqual(len(defaults.beaten(quick(4.5))), 1)
 
-    def test_the_published_figures_beat_no_default(self):
-        results = json.loads((REPOSITORY / "docs" / "bench.json").read_text(encoding="utf-8"))
-        self.assertEqual(defaults.beaten(results["transforms"]["figures"]), [])
-
 
 class Targets(unittest.TestCase):
     def results(self, seconds):

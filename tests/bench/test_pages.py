@@ -29,6 +29,21 @@ class Pages(unittest.TestCase):
             with Image.open(REPOSITORY / "docs" / "images" / f"bench_{name}") as picture:
                 self.assertEqual(picture.text["Figures"], report.digest(figures), f"bench_{name}: run bench/report.py")
 
+    def test_the_published_figures_are_short(self):
+        text = (REPOSITORY / "docs" / "bench.json").read_text(encoding="utf-8")
+        results = json.loads(text)
+        self.assertEqual(text, report.published_text(report.published(results)))
+        for name in results:
+            self.assertEqual(report.raw_of(name, results[name]["figures"]), [])
+
+    def test_publishing_drops_curves_and_digits_alone(self):
+        curve = [0.1234567891] * 401
+        run = {"wavelengths": {"figures": {"histogram": {"optimum": curve, "density": curve, "patch": "red", "difference": 0.123456789}}}}
+        kept = report.published(run)
+        self.assertEqual(kept["wavelengths"]["figures"], {"histogram": {"patch": "red", "difference": 0.123457}})
+        self.assertEqual(run["wavelengths"]["figures"]["histogram"]["optimum"], curve)
+        self.assertEqual(json.loads(report.published_text(kept)), kept)
+
     def test_every_figure_is_of_a_section(self):
         results = json.loads((REPOSITORY / "docs" / "bench.json").read_text(encoding="utf-8"))
         self.assertLessEqual(set(results), set(report.SECTIONS))

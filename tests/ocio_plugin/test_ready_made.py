@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""configs/: every look and view runs alike in both OpenColorIO releases, their checkers find nothing, and what is checked
-in is what its script makes.
+"""The ready-made looks: script/configs makes what configs/ says of them, every look and view of the config runs alike in
+both OpenColorIO releases, and their checkers find nothing.
 
-METAMER_LONG=1 makes all of it again; without, a handful of looks.
+Of a few looks of each kind; METAMER_LONG=1 makes all of them.
 """
 
 import json
@@ -20,12 +20,18 @@ import PyOpenColorIO as ocio
 import run_config
 
 ROOT = Path(__file__).resolve().parents[2]
-CONFIGS = ROOT / "configs"
+CHECKED_IN = ROOT / "configs"
 BIN = Path(os.environ["METAMER_BIN"])
+LONG = os.environ.get("METAMER_LONG") == "1"
+MADE = BIN.parent / ("configs" if LONG else "configs-sample")
 LARGEST = 15_000_000
 
-sys.path.insert(0, str(CONFIGS))
-import generate  # noqa: E402
+sys.path.insert(0, str(CHECKED_IN))
+import looks  # noqa: E402
+import make  # noqa: E402
+import manifest  # noqa: E402
+import page  # noqa: E402
+import parts  # noqa: E402
 
 
 def contents(folder):
@@ -35,12 +41,66 @@ def contents(folder):
 class ReadyMade(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.sets = [*generate.lights(), generate.filters(), generate.nights(), generate.cameras()]
-        cls.names = [name for one in cls.sets for name in one.recipes]
+        command = [sys.executable, "-B", CHECKED_IN / "make.py", "--lutgen", BIN / "lutgen", "--out", MADE]
+        cls.run_of_script = subprocess.run(command + ([] if LONG else ["--sample"]), capture_output=True, text=True)
+        if not (MADE / "metamer.ocio").exists():
+            raise AssertionError(cls.run_of_script.stderr)
+        wanted = parts.of(looks.all_sets(), None, looks.TOLERANCE)
+        cls.names = [name for part in wanted if LONG or part.name in make.SAMPLE for name in part.looks]
+
+    def test_what_is_made_is_what_is_checked_in(self):
+        """Files by their hash, figures of certificates, the config entry by entry."""
+        self.assertEqual(self.run_of_script.returncode, 0, self.run_of_script.stdout + self.run_of_script.stderr)
+        print(self.run_of_script.stdout)
+
+    def test_manifest_and_config_hold_every_look(self):
+        everyone = {name for one in looks.all_sets() for name in one.recipes}
+        checked_in = manifest.read(make.MANIFEST)
+        self.assertEqual(set(checked_in["looks"]), everyone)
+        self.assertLessEqual({f"{name}.json" for name in everyone}, set(checked_in["files"]))
+        config = ocio.Config.CreateFromFile(str(CHECKED_IN / "metamer.ocio"))
+        self.assertEqual(set(config.getLookNames()), everyone)
+        # Each table that the config names is in the manifest.
+        _, entries = parts.split((CHECKED_IN / "metamer.ocio").read_text(encoding="utf-8"))
+        tables = {word.strip("{},") for entry in entries["looks"] for word in entry.split() if word.strip("{},").endswith(".ctf")}
+        self.assertEqual(tables, {name for name in checked_in["files"] if name.endswith(".ctf")})
+
+    def test_page_shows_the_manifest(self):
+        text = page.PAGE.read_text(encoding="utf-8")
+        self.assertEqual(text, page.with_tables(text, manifest.read(make.MANIFEST)["looks"]), "script/configs --update")
+
+    def test_a_change_is_noticed(self):
+        checked_in, made = manifest.read(make.MANIFEST), manifest.of(MADE)
+        self.assertEqual(manifest.differences(checked_in, made, whole=LONG), [])
+        name = self.names[0]
+        made["looks"][name]["p99"] += 1e-4
+        made["files"][f"{name}.json"] = "0"
+        found = manifest.differences(checked_in, made, whole=LONG)
+        self.assertEqual([line.split(":")[0] for line in found], [name, f"{name}.json"])
+        self.assertGreater(len(manifest.differences(checked_in, {"looks": {}, "files": {}}, whole=True)), len(self.names))
+
+    def test_only_what_changed_is_made_again(self):
+        store = parts.Store(MADE)
+        wanted = [part for part in parts.of(looks.all_sets(), None, looks.TOLERANCE) if part.name in make.SAMPLE]
+        engine = parts.engine_digest(BIN / "lutgen")
+        for part in wanted:
+            self.assertTrue(store.is_made(part, parts.key(part, engine)), part.name)
+            self.assertFalse(store.is_made(part, parts.key(part, engine + "another")), part.name)
+        one = wanted[0]
+        name, text = next(iter(one.looks.items()))
+        other = parts.Part(one.name, one.size, one.tolerance, one.looks | {name: text + "keep_exposure: true\n"})
+        self.assertNotEqual(parts.key(one, engine), parts.key(other, engine))
+
+    def test_a_fault_is_one_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = subprocess.run([sys.executable, "-B", CHECKED_IN / "make.py", "--sample", "--lutgen", "/nowhere/lutgen", "--out", folder],
+                                 capture_output=True, text=True)
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, r"^script/configs: /nowhere/lutgen: no such program: .*\n$")
 
     def test_every_look_and_view_runs_alike(self):
-        here = run_config.built_against(CONFIGS / "metamer.ocio")
-        there = run_config.newest(CONFIGS / "metamer.ocio")
+        here = run_config.built_against(MADE / "metamer.ocio")
+        there = run_config.newest(MADE / "metamer.ocio")
         self.assertEqual(here.keys(), there.keys())
         self.assertEqual({name for kind, name in here if kind == "look"}, set(self.names))
         self.assertEqual({name for kind, name in here if kind == "named transform"},
@@ -59,7 +119,7 @@ class ReadyMade(unittest.TestCase):
         self.assertLess(worst, 2e-4)
 
     def test_neutrals_stay_neutral_with_the_eye_adapted(self):
-        results = run_config.newest(CONFIGS / "metamer.ocio")
+        results = run_config.newest(MADE / "metamer.ocio")
         worst = 0.0
         for name in self.names:
             if name.endswith("_100") or "_as_" in name:
@@ -69,15 +129,15 @@ class ReadyMade(unittest.TestCase):
         self.assertLess(worst, 1e-4)
 
     def check(self, folder):
-        """ociocheck and ociochecklut of a folder over all of configs/."""
-        check = subprocess.run([folder / "ociocheck", "--iconfig", CONFIGS / "metamer.ocio"], capture_output=True, text=True,
+        """ociocheck and ociochecklut of a folder over all that was made."""
+        check = subprocess.run([folder / "ociocheck", "--iconfig", MADE / "metamer.ocio"], capture_output=True, text=True,
                                timeout=600)
         said = check.stdout + check.stderr
         self.assertEqual(check.returncode, 0, said)
         for word in ("ERROR", "Error", "WARNING", "Warning", "failed", "NOT DEFINED"):
             self.assertNotIn(word, said)
         self.assertIn("Tests complete.", said)
-        luts = sorted((CONFIGS / "luts").glob("*.ctf"))
+        luts = sorted((MADE / "luts").glob("*.ctf"))
         for lut in luts:
             run = subprocess.run([folder / "ociochecklut", lut, "0.18", "0.18", "0.18"], capture_output=True, text=True, timeout=60)
             self.assertEqual(run.returncode, 0, f"{lut.name}: {run.stdout}{run.stderr}")
@@ -96,47 +156,26 @@ class ReadyMade(unittest.TestCase):
     def test_checkers_of_the_newest_release_find_nothing(self):
         # The wheel carries them as console scripts, from 2.5 on.
         self.check(Path(sys.executable).parent)
-        config = ocio.Config.CreateFromFile(str(CONFIGS / "metamer.ocio"))
+        config = ocio.Config.CreateFromFile(str(MADE / "metamer.ocio"))
         for role in ("scene_linear", "compositing_log", "color_timing", "data", "aces_interchange",
                      "cie_xyz_d65_interchange", "rendering", "reference", "default", "color_picking", "texture_paint", "matte_paint"):
             self.assertTrue(config.hasRole(role), role)
 
     def test_certificates_say_what_they_are_of(self):
         for name in self.names:
-            certificate = json.loads((CONFIGS / "luts" / f"{name}.json").read_text())
+            certificate = json.loads((MADE / "luts" / f"{name}.json").read_text())
             self.assertEqual(certificate["recipe"]["name"], name)
             self.assertGreaterEqual(certificate["error"]["max"], certificate["error"]["p99"])
 
     def test_size_of_the_folder(self):
-        files = [path for path in CONFIGS.rglob("*") if path.is_file() and "__pycache__" not in path.parts]
+        files = [path for path in MADE.rglob("*") if path.is_file() and ".parts" not in path.parts]
         self.assertLess(sum(path.stat().st_size for path in files), LARGEST)
         self.assertEqual([path for path in files if "partial" in path.name], [])
 
     def test_recipes_are_those_of_the_script(self):
         with tempfile.TemporaryDirectory() as folder:
-            generate.write_recipes(Path(folder), self.sets)
-            self.assertEqual(contents(Path(folder)), contents(CONFIGS / "recipes"))
-
-    def test_tables_are_those_of_the_script(self):
-        long = os.environ.get("METAMER_LONG") == "1"
-        with tempfile.TemporaryDirectory() as folder:
-            if long:
-                run = subprocess.run([sys.executable, "-B", CONFIGS / "generate.py", "--lutgen", BIN / "lutgen", "--out", folder])
-                self.assertEqual(run.returncode, 0)
-                made = contents(Path(folder))
-                self.assertEqual(made, {name: text for name, text in contents(CONFIGS).items() if name in made})
-                return
-            # One core of three adaptations, a matrix, a camera.
-            for size, names in [
-                (generate.SIZE, ["3200k_to_a_000", "3200k_to_a_050", "3200k_to_a_100", "nd_06"]),
-                (generate.SMALL_SIZE, ["canon_5d2_as_ricd"]),
-            ]:
-                recipes = [CONFIGS / "recipes" / f"{name}.yaml" for name in names]
-                run = subprocess.run([BIN / "lutgen", "config", "-o", Path(folder) / "metamer.ocio", "--tolerance",
-                                      str(generate.TOLERANCE), "--size", str(size), *recipes], capture_output=True, text=True)
-                self.assertEqual(run.returncode, 0, run.stderr)
-                for name, text in contents(Path(folder) / "luts").items():
-                    self.assertEqual(text, (CONFIGS / "luts" / name).read_bytes(), name)
+            looks.write_recipes(Path(folder), looks.all_sets())
+            self.assertEqual(contents(Path(folder)), contents(CHECKED_IN / "recipes"))
 
 
 if __name__ == "__main__":
