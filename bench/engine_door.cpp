@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A C door to the engine at any number of bands and to its map at any tolerance, instruction set and precision.
-#include <hwy/highway.h>
+#include <hwy/targets.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -11,6 +11,7 @@
 #include <cstring>
 #include <memory>
 
+#include "map/instruction_sets.h"
 #include "metamer/sip/homogeneous_map.h"
 #include "metamer/sip/recipe.h"
 #include "metamer/sip/spectral_transform.h"
@@ -238,13 +239,12 @@ extern "C" void metamerMapEvaluate(void* map, int precision, const float* rgba, 
 
 /// Instruction sets that this machine and build have, as Highway's bits.
 extern "C" std::int64_t metamerTargets() {
-  return hwy::SupportedTargets();
+  return sip::instructionSets();
 }
 extern "C" const char* metamerTargetName(std::int64_t target) {
   return hwy::TargetName(target);
 }
 /// Runs the kernel on one of them alone from now on; 0: on the best again.
 extern "C" void metamerUseTarget(std::int64_t target) {
-  hwy::SetSupportedTargetsForTest(target);
-  hwy::GetChosenTarget().DeInit();
+  sip::allowInstructionSets(target);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map's pixel kernel, compiled once per instruction set and chosen at run time (Highway).
+// The map's pixel kernel, compiled once an instruction set by Highway and chosen at run time.
 //
 // Every result is the same sequence of float32 operations whatever the instruction set and whichever pixels lie beside
 // it, so neighbours, tails and machines cannot change it.
@@ -12,7 +12,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "map/homogeneous_map_kernel.cpp"
 #include <hwy/foreach_target.h>
-// Highway's dispatch needs the target list first.
+// Highway needs the target list first.
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
@@ -21,6 +21,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "map/instruction_sets.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace metamer::sip {
@@ -306,7 +308,30 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace metamer::sip {
 
-HWY_EXPORT(applyMap);
+namespace {
+
+using ApplyMap = void(const HomogeneousMap&, const float*, float*, std::size_t);
+
+/// The kernel for the best instruction set of this machine, of those that Highway compiled it for.
+ApplyMap* chosenKernel() {
+  struct Compiled {
+    std::int64_t set;
+    ApplyMap* kernel;
+  };
+  constexpr std::array compiled{
+      Compiled{HWY_AVX3, HWY_CHOOSE_AVX3(applyMap)}, Compiled{HWY_AVX2, HWY_CHOOSE_AVX2(applyMap)},
+      Compiled{HWY_SSE4, HWY_CHOOSE_SSE4(applyMap)}, Compiled{HWY_SSSE3, HWY_CHOOSE_SSSE3(applyMap)},
+      Compiled{HWY_NEON, HWY_CHOOSE_NEON(applyMap)}};
+  const std::int64_t sets = instructionSets();
+  for (const Compiled& one : compiled) {
+    if (one.kernel != nullptr && (sets & one.set) != 0) {
+      return one.kernel;
+    }
+  }
+  return HWY_CHOOSE_FALLBACK(applyMap);
+}
+
+}  // namespace
 
 void HomogeneousMap::apply(std::span<const float> source, std::span<float> destination) const {
   assert(source.size() == destination.size() && source.size() % 4 == 0);
@@ -316,7 +341,7 @@ void HomogeneousMap::apply(std::span<const float> source, std::span<float> desti
     }
     return;
   }
-  HWY_DYNAMIC_DISPATCH(applyMap)(*this, source.data(), destination.data(), source.size() / 4);
+  chosenKernel()(*this, source.data(), destination.data(), source.size() / 4);
 }
 
 }  // namespace metamer::sip
