@@ -5,12 +5,18 @@ set(METAMER_SANITIZERS "" CACHE STRING "Comma-separated -fsanitize list, empty f
 
 add_library(metamer_build_flags INTERFACE)
 target_compile_features(metamer_build_flags INTERFACE cxx_std_20)
-target_compile_options(metamer_build_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
-  # A transform must not depend on the machine or compiler that ran it: no contraction into fused operations.
-  -ffp-contract=off
-  # GCC 12 reports overlapping copies inside std::string that cannot happen (GCC bug 105651).
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+option(METAMER_WERROR "Warnings are errors (the presets have it on)" OFF)
+if(MSVC)
+  target_compile_options(metamer_build_flags INTERFACE /W4 $<$<BOOL:${METAMER_WERROR}>:/WX>
+    /permissive- /utf-8 /Zc:__cplusplus /fp:precise)
+else()
+  target_compile_options(metamer_build_flags INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<BOOL:${METAMER_WERROR}>:-Werror>
+    # A transform must not depend on the machine or compiler that ran it: no contraction into fused operations.
+    -ffp-contract=off
+    # GCC 12 reports overlapping copies inside std::string that cannot happen (GCC bug 105651).
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+endif()
 if(METAMER_SANITIZERS)
   target_compile_options(metamer_build_flags INTERFACE -fsanitize=${METAMER_SANITIZERS} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
@@ -43,12 +49,28 @@ function(metamer_library folder)
   install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endfunction()
 
-# metamer_test(<name> SOURCES ... [LINK targets...])  A GoogleTest program, one ctest entry a test case.
+# metamer_test(<name> SOURCES ... [LINK targets...] [LABELS ...] [LONG suites...])
+# A GoogleTest program, one ctest entry a suite: what a suite builds once in its process serves all of its cases. Labels:
+# cpp, those given, and quick but for the suites that are LONG, which ctest starts first. The target cpp_tests builds all
+# such programs.
+add_custom_target(cpp_tests)
 function(metamer_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK;LABELS;LONG" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(${name} PRIVATE ${arg_LINK} metamer_build_flags GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE METAMER_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+  add_dependencies(cpp_tests ${name})
+
+  set(suites "${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake")
+  set(discover "${PROJECT_SOURCE_DIR}/cmake/DiscoverSuites.cmake")
+  add_custom_command(TARGET ${name} POST_BUILD BYPRODUCTS "${suites}" VERBATIM
+    COMMAND "${CMAKE_COMMAND}" "-DPROGRAM=$<TARGET_FILE:${name}>" "-DNAME=${name}" "-DFOLDER=${CMAKE_CURRENT_BINARY_DIR}"
+      "-DLABELS=cpp;${arg_LABELS}" "-DLONG=${arg_LONG}" "-DOUTPUT=${suites}" -P "${discover}")
+  set_property(TARGET ${name} APPEND PROPERTY LINK_DEPENDS "${discover}")
+  # ctest reads what the build wrote; a program that was not built is a test that cannot run.
+  set(included "${CMAKE_CURRENT_BINARY_DIR}/${name}_tests.cmake")
+  file(WRITE "${included}"
+    "if(EXISTS [=[${suites}]=])\n  include([=[${suites}]=])\nelse()\n  add_test(${name}.not_built ${name}.not_built)\nendif()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${included}")
 endfunction()

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 
 #include "frame.h"
@@ -164,26 +165,36 @@ TEST_F(OfxParameters, WhatHasNoSayIsGreyedOut) {
   EXPECT_TRUE(isEnabled("quality"));
 }
 
+// A file that changes behind its size and date shows whether it was read again.
 TEST_F(OfxParameters, NothingIsBuiltTwice) {
-  using Clock = std::chrono::steady_clock;
-  const auto seconds = [&](Instance& effect) {
-    const auto start = Clock::now();
-    render(effect);
-    return std::chrono::duration<double>(Clock::now() - start).count();
+  const std::string file = write("lamp.csv", "nm,power\n380,1\n580,1\n780,3\n");
+  const auto date = std::filesystem::last_write_time(file);
+  const auto lit = [&](double mix) {
+    return m_host.create(
+        0, {{"outputIlluminant", "From file"}, {"outputIlluminantFile", file}, {"scene", "Data set"}, {"mix", mix}});
   };
-  const auto effect = m_host.create(0, {{"outputIlluminant", "FL2"}});
-  const double first = seconds(*effect);
-  double again = seconds(*effect);
+  const auto effect = lit(1.0);
+  const Frame::Rgba first = render(*effect);
+
+  write("lamp.csv", "nm,power\n380,3\n580,1\n780,1\n");
+  std::filesystem::last_write_time(file, date);
+  EXPECT_EQ(render(*effect), first);
   // Mix has no part in the engine; neither has another instance, nor the light that is set and taken back.
   effect->set("mix", 0.5);
-  again = std::max(again, seconds(*effect));
+  const Frame::Rgba half = render(*effect);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(half[k], 0.5 * (first[k] + m_source.at(3, 3)[k]), 1e-5);
+  }
+  effect->set("mix", 1.0);
   effect->set("outputIlluminant", "D65");
-  render(*effect);
-  effect->set("outputIlluminant", "FL2");
-  again = std::max(again, seconds(*effect));
-  const auto other = m_host.create(0, {{"outputIlluminant", "FL2"}});
-  again = std::max(again, seconds(*other));
-  EXPECT_LT(again * 5, first) << "a build takes at least five times as long as 200 pixels";
+  EXPECT_NE(render(*effect), first);
+  effect->set("outputIlluminant", "From file");
+  EXPECT_EQ(render(*effect), first);
+  EXPECT_EQ(render(*lit(1.0)), first);
+
+  // It would have been another picture.
+  std::filesystem::last_write_time(file, date + std::chrono::seconds(2));
+  EXPECT_NE(render(*effect), first);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <clocale>
 #include <fstream>
 
@@ -253,14 +252,10 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
        "r.yaml: size '2000063': is more than a recipe may have (1048576 bytes)"},
   };
   for (const Case& c : cases) {
-    const auto start = std::chrono::steady_clock::now();
     const std::string error = errorOf([&] { parse(c.text); });
     EXPECT_EQ(error.substr(0, 6), "r.yaml") << c.name << ": " << error;
     EXPECT_NE(error.find(c.error), std::string::npos) << c.name << ": " << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << c.name << ": " << error;
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    // Milliseconds in a release build; the bound leaves room for sanitizers on a busy machine.
-    EXPECT_LT(seconds.count(), 5) << c.name;
   }
 }
 

