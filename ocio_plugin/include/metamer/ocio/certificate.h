@@ -63,7 +63,7 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
 /// SHA-256 of bytes, lower-case hexadecimal.
 std::string sha256(const std::string& bytes);
 
-/// Version of this library, "0.1.0".
+/// Version of this library, "0.2.0".
 std::string toolVersion();
 
 }  // namespace metamer::ocio
