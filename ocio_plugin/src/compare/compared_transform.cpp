@@ -13,6 +13,7 @@
 #include "metamer/ocio/shaper.h"
 #include "metamer/ocio/working_space.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/missing_file_error.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
@@ -91,7 +92,7 @@ std::optional<CertifiedPixels> certifiedPixels(const std::filesystem::path& file
 OCIO::ConstConfigRcPtr loadConfig(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) {
-    throw InputError(file.string(), "config", "", "there is no such file; check the path");
+    throw spectral::MissingFileError(file.string(), "config", "", "there is no such file; check the path");
   }
   try {
     return OCIO::Config::CreateFromFile(file.string().c_str());

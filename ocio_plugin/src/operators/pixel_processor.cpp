@@ -4,6 +4,7 @@
 #include <string>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/missing_file_error.h"
 
 namespace metamer::ocio {
 
@@ -23,7 +24,7 @@ PixelProcessor::PixelProcessor(const OCIO::ConstTransformRcPtr& transform) {
 PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) {
-    throw spectral::InputError(file.string(), "LUT", "", "there is no such file; check the path");
+    throw spectral::MissingFileError(file.string(), "LUT", "", "there is no such file; check the path");
   }
   auto transform = OCIO::FileTransform::Create();
   // OCIO looks relative paths up in its search path, and keeps what it has read by name.

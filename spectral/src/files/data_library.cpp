@@ -14,6 +14,7 @@
 #include "metamer/spectral/illuminants.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/observer_of_curves.h"
 #include "metamer/spectral/platform.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
@@ -91,19 +92,6 @@ Spectrum onlySpectrum(std::vector<Spectrum> spectra, const std::string& file) {
                      "must be 2, a wavelength and a value; keep the column to use");
   }
   return std::move(spectra.front());
-}
-
-/// What the three curves of a user's observer are, by their names; a camera's where these say nothing.
-Observer::Response responseOf(const std::vector<Spectrum>& curves) {
-  std::string initials;
-  for (const Spectrum& curve : curves) {
-    const std::string name = lowerCase(curve.name());
-    const bool isLetter = name.size() == 1 || name.substr(1) == "_bar" || name.substr(1) == "bar";
-    initials += isLetter ? name.front() : '?';
-  }
-  return initials == "xyz"   ? Observer::Response::Xyz
-         : initials == "lms" ? Observer::Response::Lms
-                             : Observer::Response::Camera;
 }
 
 Observer makeObserver(std::string name, Observer::Response response, const std::vector<Spectrum>& curves,
@@ -262,7 +250,7 @@ Observer DataLibrary::observer(const std::string& nameOrFile, const std::filesys
       throw InputError((baseFolder / nameOrFile).string(), "columns", std::to_string(curves->size() + 1),
                        "must be 4, a wavelength and three responses");
     }
-    return makeObserver(nameOrFile, responseOf(*curves), *curves, std::nullopt);
+    return observerOfCurves(nameOrFile, *curves);
   }
   m_state->throwUnknown("observers", nameOrFile);
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/missing_file_error.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
@@ -17,7 +18,7 @@ std::string readTextFile(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) {
-    throw InputError(where, "", "", "no such file");
+    throw MissingFileError(where, "", "", "no such file");
   }
   if (std::filesystem::is_directory(status)) {
     throw InputError(where, "", "", "is a folder; give a file");

@@ -40,7 +40,8 @@ std::vector<Spectrum> readCsv(const std::string& text, const std::string& where,
 std::vector<Spectrum> readSpdx(const std::string& text, const std::string& where, SpectralQuantity quantity);
 std::vector<Spectrum> readRawtoacesJson(const std::string& text, const std::string& where, SpectralQuantity quantity);
 
-/// The whole of a regular file as bytes. @throws InputError (missing, a folder, unreadable, over kLargestFileBytes)
+/// The whole of a regular file as bytes.
+/// @throws MissingFileError; InputError (a folder, unreadable, over kLargestFileBytes)
 std::string readTextFile(const std::filesystem::path& file);
 
 }  // namespace metamer::spectral
