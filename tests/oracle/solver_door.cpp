@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A C door to the solver, so that Python's quadratic programming libraries can judge it on the same numbers.
+// A shim to an internal of the engine, the solver behind a transform, so that quadratic programming libraries can judge it
+// on the same numbers: rounds, fall-backs and the course notes' loop are no part of the Python package.
 #include <algorithm>
 #include <chrono>
 

@@ -1,34 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """Non-negative least squares, with and without limits, against scipy on random problems, degenerate ones included."""
 
-import ctypes
-import os
 import unittest
-from pathlib import Path
 
 import numpy as np
 from scipy.optimize import linprog, lsq_linear, minimize, nnls
 
-DOOR = ctypes.CDLL(str(Path(os.environ["METAMER_LIB"]) / "libmetamer_least_squares_door.so"))
-DOOR.metamerLeastSquares.restype = ctypes.c_double
+from metamer.stage import non_negative_least_squares
 
 COUNT = 1000
 # |A x - b|^2 in double precision has its rounding at a few eps |b|^2: where the fit is exact, only that is left.
 ROUNDING = 1e-24
 
 
-def pointer(values):
-    return None if values is None else values.ctypes.data_as(ctypes.c_void_p)
-
-
-def solve(matrix, target, upper=None, power=None, budget=0.0):
-    matrix = np.ascontiguousarray(matrix, dtype=float)
-    target = np.ascontiguousarray(target, dtype=float)
-    x = np.empty(matrix.shape[1])
-    DOOR.metamerLeastSquares(
-        pointer(matrix), *matrix.shape, pointer(target), pointer(upper), pointer(power), ctypes.c_double(budget),
-        pointer(x))
-    return x
+def solve(matrix, target, upper=None, power=None, budget=None):
+    return non_negative_least_squares(matrix, target, upper=upper, power=power, power_budget=budget)[0]
 
 
 def objective(matrix, target, x):
