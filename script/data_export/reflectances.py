@@ -8,10 +8,13 @@ from typing import Any
 
 from data_export.table import BSD, COLOUR, RAWTOACES, Columns, Table, crop, encode, hundredth, pairs, read_columns
 
+SOURCES = Path(__file__).resolve().parents[2] / "data" / "sources"
 RESIDUE = 1e-12  # negative reflectances smaller than this are rounding, not data
 
 
-def reflectance(stem: str, name: str, columns: Columns, source: str, note: str) -> Table:
+def reflectance(
+    stem: str, name: str, columns: Columns, source: str, note: str, licence: str = BSD
+) -> Table:
     """Return one reflectance set's table."""
     content, shape = encode(columns)
     return Table(
@@ -21,7 +24,7 @@ def reflectance(stem: str, name: str, columns: Columns, source: str, note: str) 
         "1",
         [name],
         source,
-        BSD,
+        licence,
         content,
         shape,
         note,
@@ -131,5 +134,15 @@ def reflectance_tables(colour: Any) -> list[Table]:
             "skin fidelity, and CRI test colours 13 (light yellowish pink, human complexion) and "
             "15 (Japanese skin complexion). TCS13 is cut to 380-780 nm; nothing is interpolated. "
             "Four samples, all light to medium: dark skin is not represented.",
+        ),
+        reflectance(
+            "model_skins",
+            "model skins",
+            read_columns(SOURCES / "model_skins_100.csv"),
+            "100 draws from a prior of the parameters of a two-layer skin model, with the model's "
+            "mean misfit applied; the prior was fitted to every other subject of Cooksey, Allen, "
+            "Tsai 2017, Reference data set of human skin reflectance, J. Res. NIST 122:26",
+            "Modelled, not measured: sources/model_skins_100.csv. All depths of skin.",
+            "Apache-2.0",
         ),
     ]

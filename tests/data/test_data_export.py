@@ -18,7 +18,7 @@ from pathlib import Path
 
 from tables import DATA, find, load_manifest, PINNED, read_table, SCRIPT, SPACES
 
-HAND_WRITTEN = {"README.md", "sources/camera_fits.json"}
+HAND_WRITTEN = {"README.md", "sources/camera_fits.json", "sources/model_skins_100.csv"}
 QUANTITIES = {
     "illuminants": "spectral power distribution",
     "daylight_basis": "spectral power distribution",

@@ -11,7 +11,7 @@
 #include <memory_resource>
 #include <unordered_map>
 
-#include "map/perceptual_metric.h"
+#include "transform/perceptual_metric.h"
 
 namespace metamer::sip {
 

@@ -12,6 +12,7 @@
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 #include "metamer/spectral/yaml_section.h"
+#include "scenes/measured_surfaces.h"
 
 namespace metamer::sip {
 namespace {
@@ -21,9 +22,6 @@ using spectral::YamlNode;
 using spectral::YamlSection;
 
 constexpr double kLargestDensity = 100.0;
-constexpr double kLargestRadius = 1.0;
-/// Reflectances over which the matrix of a camera is solved.
-constexpr const char* kTrainingSet = "rawtoaces 190";
 constexpr const char* kStandardObserver = "CIE 1931 2";
 
 RecipeFilter readFilter(const YamlNode& node, const YamlSection& pipeline, const std::string& path) {
@@ -65,31 +63,24 @@ RecipePipeline readPipeline(const YamlSection& section) {
 
 RecipeScene readScene(const YamlSection& section) {
   RecipeScene scene;
-  std::string kind = "smooth";
+  std::string kind = nameOf(scene.kind);
   section.read("kind", kind);
-  if (kind == "dataset") {
-    scene.kind = ReferenceScene::Kind::Dataset;
-  } else if (kind == "prior") {
-    scene.kind = ReferenceScene::Kind::Prior;
-  } else if (kind != "smooth") {
-    throw section.error(*section.find("kind"), "scene.kind", kind, "must be smooth, dataset or prior");
+  try {
+    scene.kind = sceneKindFromName(kind);
+  } catch (const InputError&) {
+    throw section.error(*section.find("kind"), "scene.kind", kind, kSceneKindRemedy);
   }
   section.read("set", scene.set);
   section.read("strength", scene.strength, 0.0, 1.0);
-  section.read("radius", scene.radius, 1e-4, kLargestRadius);
-  const auto refuse = [&](const char* key, const char* remedy) {
-    if (const YamlNode* node = section.find(key)) {
-      throw section.error(*node, section.named(key), node->text, remedy);
-    }
-  };
-  if (scene.kind == ReferenceScene::Kind::Smooth) {
-    refuse("set", "has no meaning with kind smooth; use kind dataset or prior, or leave it out");
-  } else {
+  if (scene.kind == ReferenceScene::Kind::Dataset) {
     section.require("set", "is missing; name a reflectance set (see: lutgen list reflectances)");
+  } else if (const YamlNode* set = section.find("set")) {
+    throw section.error(*set, section.named("set"), set->text, "has a meaning with kind dataset alone; leave it out");
   }
-  if (scene.kind != ReferenceScene::Kind::Prior) {
-    refuse("strength", "has a meaning with kind prior alone; leave it out");
-    refuse("radius", "has a meaning with kind prior alone; leave it out");
+  const YamlNode* strength = section.find("strength");
+  if (strength != nullptr && scene.kind != ReferenceScene::Kind::Skin) {
+    throw section.error(*strength, section.named("strength"), strength->text,
+                        "has a meaning with kind skin alone; leave it out");
   }
   return scene;
 }
@@ -143,14 +134,6 @@ Pipeline resolvePipeline(const Recipe& recipe, const char* side, const RecipePip
   });
 }
 
-std::vector<spectral::DomainSamples> onDomain(const spectral::ReflectanceSet& set) {
-  std::vector<spectral::DomainSamples> samples;
-  for (const auto& sample : set.samples) {
-    samples.push_back(sample.onDomain());
-  }
-  return samples;
-}
-
 }  // namespace
 
 Recipe readRecipe(const std::filesystem::path& file) {
@@ -193,7 +176,7 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
   output.read("adaptation", recipe.adaptation, 0.0, 1.0);
 
   if (const YamlNode* scene = top.find("scene")) {
-    recipe.scene = readScene(YamlSection(*scene, where, "scene", {"kind", "set", "strength", "radius"}));
+    recipe.scene = readScene(YamlSection(*scene, where, "scene", {"kind", "set", "strength"}));
   }
   if (const YamlNode* cat = top.find("cat")) {
     const std::string name = top.text(*cat, "cat");
@@ -210,19 +193,13 @@ std::string toYaml(const Recipe& recipe) {
   std::string text = "metamer: 1\nname: " + quoted(recipe.name) + "\nspace: " + quoted(recipe.space) +
                      "\ninput: " + toYaml(recipe.input) + "}\noutput: " + toYaml(recipe.output) +
                      ", adaptation: " + spectral::shortestNumber(recipe.adaptation) + "}\n";
-  switch (recipe.scene.kind) {
-    case ReferenceScene::Kind::Smooth:
-      text += "scene: {kind: smooth}\n";
-      break;
-    case ReferenceScene::Kind::Dataset:
-      text += "scene: {kind: dataset, set: " + quoted(recipe.scene.set) + "}\n";
-      break;
-    case ReferenceScene::Kind::Prior:
-      text += "scene: {kind: prior, set: " + quoted(recipe.scene.set) +
-              ", strength: " + spectral::shortestNumber(recipe.scene.strength) +
-              ", radius: " + spectral::shortestNumber(recipe.scene.radius) + "}\n";
-      break;
+  text += "scene: {kind: " + nameOf(recipe.scene.kind);
+  if (recipe.scene.kind == ReferenceScene::Kind::Dataset) {
+    text += ", set: " + quoted(recipe.scene.set);
+  } else if (recipe.scene.kind == ReferenceScene::Kind::Skin) {
+    text += ", strength: " + spectral::shortestNumber(recipe.scene.strength);
   }
+  text += "}\n";
   text += "cat: " + spectral::nameOf(recipe.cat) + "\n";
   return text + "keep_exposure: " + (recipe.keepExposure ? "true" : "false") + "\n";
 }
@@ -238,15 +215,21 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
                      .adaptation = recipe.adaptation,
                      .cat = recipe.cat,
                      .keepExposure = recipe.keepExposure,
-                     .scene = {.kind = recipe.scene.kind,
-                               .samples = {},
-                               .strength = recipe.scene.strength,
-                               .radius = recipe.scene.radius},
-                     .training = onDomain(library.reflectances(kTrainingSet)),
+                     .scene = {.kind = recipe.scene.kind, .samples = {}, .skins = {}, .strength = recipe.scene.strength},
+                     .training = measuredSurfaces(library),
                      .standardObserver = library.observer(kStandardObserver)};
-  if (recipe.scene.kind != ReferenceScene::Kind::Smooth) {
-    spec.scene.samples =
-        lookUp(recipe, "scene", [&] { return onDomain(library.reflectances(recipe.scene.set, recipe.folder)); });
+  switch (recipe.scene.kind) {
+    case ReferenceScene::Kind::Smooth:
+      break;
+    case ReferenceScene::Kind::Dataset:
+      spec.scene.samples =
+          lookUp(recipe, "scene", [&] { return onDomain(library.reflectances(recipe.scene.set, recipe.folder)); });
+      break;
+    case ReferenceScene::Kind::Natural:
+    case ReferenceScene::Kind::Skin:
+      spec.scene.samples = spec.training;
+      spec.scene.skins = modelSkins(library);
+      break;
   }
   return spec;
 }

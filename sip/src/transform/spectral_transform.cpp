@@ -4,14 +4,20 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+#include <optional>
+#include <variant>
 
 #include "metamer/sip/band_weights.h"
-#include "metamer/sip/feasible_cone.h"
 #include "metamer/spectral/input_error.h"
+#include "scenes/dataset_scene.h"
+#include "scenes/measured_scene.h"
+#include "soft_bound/soft_bound_solver.h"
+#include "transform/limiter.h"
+#include "transform/pair_gain.h"
+#include "transform/perceptual_metric.h"
 #include "response/ray_polygon.h"
-#include "scenes/reference_scenes.h"
+#include "transform/sides.h"
 
 namespace metamer::sip {
 
@@ -19,61 +25,11 @@ using spectral::InputError;
 
 namespace {
 
-/// Channels of the white-normalised input weights whose singular value falls below this part of the largest are not
-/// told apart by the light (low-pressure sodium, a laser): the difference of two colours there is noise, and it takes
-/// ordinary chromatic adaptation instead of being amplified. Of all lamps in data/, low-pressure sodium has 0.03 and
-/// 0.003 in the CIE 1931 observer, every other at least 0.13.
-constexpr double kRankTolerance = 0.05;
-
-/// A channel whose white is this much darker than the brightest one's is dark.
-constexpr double kDarkChannel = 1e-12;
-
-/// Of a camera's sensitivity over its best: where it is below, its range ends.
-constexpr double kFaintest = 1e-2;
-
-/// Step of the differences that linearise a transform with a prior, relative to the colour: far below the width of
-/// any kernel, far above rounding.
-constexpr double kDifferenceStep = 1e-5;
-
-/// Orthonormal directions that the light tells apart; the identity where it tells all three.
-Eigen::Matrix3Xd signalBasis(const Eigen::Matrix3Xd& weights, double& conditionNumber) {
-  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(weights, Eigen::ComputeThinU);
-  const Eigen::Vector3d singular = svd.singularValues();
-  conditionNumber = singular[0] / std::max(singular[2], 1e-300);
-  int rank = 1;
-  while (rank < 3 && singular[rank] >= kRankTolerance * singular[0]) {
-    ++rank;
-  }
-  if (rank == 3) {
-    return Eigen::Matrix3d::Identity();
-  }
-  return svd.matrixU().leftCols(rank);
-}
-
-/// The weights of the bands within a camera's range. Beyond, its channels are noise, whose ratios would widen the cone
-/// by colours that take reflectances of thousands. The range comes from the integration domain, whatever the bands.
-Eigen::Matrix3Xd withinRange(const Eigen::Matrix3Xd& weights,
-                             const Eigen::Matrix<double, spectral::kDomainSize, 3>& curves) {
-  const Eigen::ArrayXd sensitivity = curves.cwiseAbs().rowwise().sum();
-  const double least = kFaintest * sensitivity.maxCoeff();
-  int first = 0;
-  while (sensitivity[first] < least) {
-    ++first;
-  }
-  int last = spectral::kDomainSize - 1;
-  while (sensitivity[last] < least) {
-    --last;
-  }
-  const auto bandCount = static_cast<int>(weights.cols());
-  std::vector<int> within;
-  for (int band = 0; band < bandCount; ++band) {
-    const double sample = bandCentreNm(band, bandCount) - spectral::kDomainStartNm;
-    if (sample >= first && sample <= last) {
-      within.push_back(band);
-    }
-  }
-  return weights(Eigen::all, within);
-}
+/// Noise of a measured sample in the scene, over the kernel's 1, by cross-validation.
+constexpr double kSampleNoise = 0.1;
+constexpr double kSkinNoise = 0.1;
+/// The skin scene's skins are followed by this much more closely at strength 1.
+constexpr double kSkinSceneFactor = 0.1;
 
 /// Scales by a power of two so that the largest component lies in [0.5, 1): the result of a colour and of the same
 /// colour at another exposure then agree to the last bit for whole stops. Zero stays.
@@ -84,151 +40,142 @@ double exposureScale(const Eigen::Vector3d& colour) {
   return std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
 }
 
+Eigen::MatrixXd onBands(const std::vector<spectral::DomainSamples>& samples, int bandCount) {
+  Eigen::MatrixXd bands(bandCount, static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    bands.col(static_cast<Eigen::Index>(i)) = atBandCentres(samples[i], bandCount);
+  }
+  return bands;
+}
+
+using Scene = std::variant<std::monostate, MeasuredScene, DatasetScene>;
+
+Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
+  if (scene.kind == ReferenceScene::Kind::Smooth) {
+    return {};
+  }
+  if (scene.samples.empty()) {
+    throw InputError("recipe", "scene.set", "", "a scene of measured spectra needs a set of reflectances");
+  }
+  if (!(scene.strength >= 0.0 && scene.strength <= 1.0)) {
+    throw InputError("recipe", "scene.strength", std::to_string(scene.strength), "give a number from 0 to 1");
+  }
+  const int bandCount = solver.bandCount();
+  const Eigen::MatrixXd samples = onBands(scene.samples, bandCount);
+  if (scene.kind == ReferenceScene::Kind::Dataset) {
+    return DatasetScene(solver, samples);
+  }
+  const Eigen::MatrixXd skins = onBands(scene.skins, bandCount);
+  Eigen::MatrixXd all(bandCount, samples.cols() + skins.cols());
+  all << samples, skins;
+  const double strength = scene.kind == ReferenceScene::Kind::Skin ? scene.strength : 0.0;
+  Eigen::VectorXd noise(all.cols());
+  noise << Eigen::VectorXd::Constant(samples.cols(), kSampleNoise),
+      Eigen::VectorXd::Constant(skins.cols(), kSkinNoise * std::pow(kSkinSceneFactor, strength));
+  return MeasuredScene(solver, all, noise);
+}
+
 }  // namespace
 
+/// Colours go through "relative" XYZ: of the working space, over its white. Plain adaptation leaves them as they are.
 struct SpectralTransform::State {
   spectral::RgbSpace space;
   bool identity = false;
-  Eigen::Matrix3d responseFromRgb;  ///< white-normalised input response
-  Eigen::Matrix3d rgbFromOutputResponse;
-  Eigen::Matrix3Xd rgbFromSpectrum;  ///< 3 x B: output RGB from reflectance
-  Eigen::MatrixX3d spectrumToRgb;    ///< its transpose
-  Eigen::Matrix3Xd basis;            ///< directions the input light tells apart
-  Eigen::Matrix3d extension;         ///< output RGB from the response that lies outside the cone
-  std::optional<SmoothestSpectrumSolver> solver;
-  std::optional<FeasibleCone> cone;
-  std::optional<DatasetScene> dataset;
-  std::optional<PriorScene> prior;
+  Sides sides;
+  Eigen::Matrix3Xd relativeFromSpectrum;  ///< 3 x B
+  std::optional<SoftBoundSolver> solver;
+  Scene scene;
+  Limiter limiter{Limiter::Reach{}};
+  bool relaxed = false;
   Diagnostics diagnostics;
 
-  const FeasibleCone& domain() const { return dataset ? dataset->cone() : *cone; }
-
-  /// Response in the solver's three rows (the directions told apart, padded with zeros).
-  Eigen::Vector3d target(const Eigen::Vector3d& response) const {
-    if (basis.cols() == 3) {
-      return response;
-    }
-    Eigen::Vector3d padded = Eigen::Vector3d::Zero();
-    padded.head(basis.cols()) = basis.transpose() * response;
-    return padded;
+  std::optional<BandVector> prior(const Eigen::Vector3d& response) const {
+    return std::visit(
+        [&](const auto& kind) -> std::optional<BandVector> {
+          if constexpr (requires { kind.deviation(response); }) {
+            return kind.deviation(response);
+          } else {
+            return std::nullopt;
+          }
+        },
+        scene);
   }
-  /// Matrix that acts on the response itself, from one that acts on the target (both with three columns).
-  Eigen::MatrixX3d onResponse(const Eigen::MatrixX3d& fromTarget) const {
-    if (basis.cols() == 3) {
-      return fromTarget;
-    }
-    return fromTarget.leftCols(basis.cols()) * basis.transpose();
+  SoftBoundSolver::Solution solve(const Eigen::Vector3d& response) const {
+    const std::optional<BandVector> deviation = prior(response);
+    return solver->solve(response, deviation ? &*deviation : nullptr);
   }
-  SmoothestSpectrumSolver::Solution solve(const Eigen::Vector3d& response) const {
-    std::optional<SmoothestSpectrumSolver::Solution> solution;
-    if (prior) {
-      const Eigen::VectorXd blend = prior->blend(response);
-      solution = solver->solve(target(response), &blend);
-    } else {
-      solution = solver->solve(target(response));
+  /// The spectral result before any limit.
+  Eigen::Vector3d relativeResult(const Eigen::Vector3d& relative, const Eigen::Vector3d& response,
+                                 const BandVector& spectrum) const {
+    Eigen::Vector3d result = relativeFromSpectrum * spectrum + sides.unseen * relative;
+    if (relaxed) {
+      result += sides.relativeFromResponse * (response - solver->weights() * spectrum);
     }
-    // The cone is drawn in from the set of feasible responses, so there is a solution; should rounding deny it,
-    // the unbounded spectrum stands in.
-    if (!solution) {
-      solution.emplace();
-      solution->reflectance = solver->unconstrained() * target(response);
-    }
-    return *std::move(solution);
+    return result;
   }
-  /// Output RGB from the target (3 x 3) near a response, with the bands held there.
-  Eigen::Matrix3d linearise(const Eigen::Vector3d& response, const ActiveSet* guess, ActiveSet& active) const {
-    auto piece = solver->linearise(target(response), spectrumToRgb, guess);
-    if (!piece) {
-      return rgbFromSpectrum * solver->unconstrained();
+  /// Its derivative by the response, from the spectrum's.
+  Eigen::Matrix3d relativeSlope(const BandTriple& spectrumSlope) const {
+    Eigen::Matrix3d slope = relativeFromSpectrum * spectrumSlope + sides.unseen * sides.relativeFromResponse;
+    if (relaxed) {
+      slope += sides.relativeFromResponse * (Eigen::Matrix3d::Identity() - solver->weights() * spectrumSlope);
     }
-    active = std::move(piece->active);
-    return piece->matrix;
+    return slope;
   }
+  void setLimits(const std::vector<spectral::DomainSamples>& training);
 };
 
+void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSamples>& training) {
+  std::vector<Eigen::Vector3d> colours;
+  std::vector<Eigen::Vector3d> differences;
+  const Eigen::MatrixXd surfaces = onBands(training, solver->bandCount());
+  for (Eigen::Index i = 0; i < surfaces.cols(); ++i) {
+    const Eigen::Vector3d response = solver->weights() * surfaces.col(i);
+    colours.emplace_back(sides.relativeFromResponse * response);
+    differences.emplace_back(relativeResult(colours.back(), response, solve(response).reflectance) - colours.back());
+  }
+  limiter = Limiter(Limiter::reachFor(colours, differences));
+  diagnostics.reachUp = limiter.reach().up;
+  diagnostics.reachDown = limiter.reach().down;
+  diagnostics.reachAside = limiter.reach().aside;
+  std::size_t limited = 0;
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    limited += limiter.share(colours[i], differences[i]).value < 1.0 ? 1 : 0;
+  }
+  diagnostics.limitedShare = static_cast<double>(limited) / static_cast<double>(std::max<std::size_t>(1, colours.size()));
+}
+
 SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
+  if (bandCount < kMinimumBandCount || bandCount > kConvergedBandCount) {
+    throw InputError("transform", "bandCount", std::to_string(bandCount),
+                     "give a number of bands from " + std::to_string(kMinimumBandCount) + " to " +
+                         std::to_string(kConvergedBandCount));
+  }
   auto state = std::make_unique<State>();
   state->space = spec.space;
-  if (!(spec.adaptation >= 0.0 && spec.adaptation <= 1.0)) {
-    throw InputError("recipe", "adaptation", std::to_string(spec.adaptation), "give a number from 0 to 1");
+  state->sides = prepareSides(spec);
+  const Sides& sides = state->sides;
+  state->identity = sides.equal;
+  state->relativeFromSpectrum = sides.relativeWeights(bandCount);
+  const Eigen::Matrix3Xd weights = sides.inputWeights(bandCount);
+  const Eigen::JacobiSVD<Eigen::Matrix3Xd> svd(weights);
+  state->diagnostics.conditionNumber = svd.singularValues()[0] / std::max(svd.singularValues()[2], 1e-300);
+
+  double relaxation = 0.0;
+  if (!spec.training.empty() && !state->identity) {
+    const PairWeights pair{sides.inputWeights(kDecisionBandCount), sides.relativeWeights(kDecisionBandCount),
+                           sides.relativeFromResponse};
+    const Eigen::MatrixXd surfaces = onBands(spec.training, kDecisionBandCount);
+    const PerceptualMetric metric(spec.space);
+    state->diagnostics.gain = gainOf(pair, metric, surfaces, 0.0);
+    relaxation = relaxationOf(pair, metric, surfaces);
   }
-  const PreparedPipeline input = prepare(spec.input, spec.training, spec.standardObserver);
-  const PreparedPipeline output = prepare(spec.output, spec.training, spec.standardObserver);
-  // A channel without any light has no white to be normalised by: low-pressure sodium leaves an eye's blue one dark.
-  if (!(input.white.minCoeff() > kDarkChannel * input.white.maxCoeff())) {
-    throw InputError(spec.input.illuminant.name(), "input.observer", spec.input.observer.name,
-                     "gets nothing from this light in one of its channels; use another observer or another light");
-  }
-  const double exposure = spec.keepExposure ? output.filterTransmission / input.filterTransmission : 1.0;
-  state->identity = input.light == output.light && input.curves == output.curves &&
-                    input.xyzFromResponse == output.xyzFromResponse && exposure == 1.0;
-
-  const Eigen::Vector3d white = spec.space.whiteXyz();
-  const Eigen::Matrix3d xyzFromNormalised = input.xyzFromResponse * input.white.asDiagonal();
-  state->responseFromRgb =
-      xyzFromNormalised.inverse() * spectral::adaptXyz(spec.cat, white, input.whiteXyz()) * spec.space.xyzFromRgb();
-
-  // The output's gain in cone space: D W/W_out + (1 - D) W/W_in.
-  const Eigen::Matrix3d cones = spectral::lmsFromXyz(spec.cat);
-  const Eigen::Array3d whiteCones = (cones * white).array();
-  const Eigen::Array3d inputCones = (cones * input.whiteXyz()).array();
-  const Eigen::Array3d outputCones = (cones * output.whiteXyz()).array();
-  Eigen::Array3d gain = (1.0 - spec.adaptation) * whiteCones / inputCones;
-  if (spec.adaptation > 0.0) {
-    if (outputCones.minCoeff() <= 1e-9) {
-      throw InputError(spec.output.illuminant.name(), "adaptation", std::to_string(spec.adaptation),
-                       "the eye cannot adapt to this light with " + spectral::nameOf(spec.cat) +
-                           " (no response in one cone); use adaptation 0 or vonkries");
-    }
-    gain += spec.adaptation * whiteCones / outputCones;
-  }
-  const Eigen::Matrix3d rgbFromOutputXyz =
-      exposure * spec.space.rgbFromXyz() * cones.inverse() * gain.matrix().asDiagonal() * cones;
-  state->rgbFromOutputResponse = rgbFromOutputXyz * output.xyzFromResponse;
-  state->rgbFromSpectrum = state->rgbFromOutputResponse * bandWeights(output.light, output.curves, bandCount);
-
-  state->spectrumToRgb = state->rgbFromSpectrum.transpose();
-
-  const auto weightsOf = [&](int count) -> Eigen::Matrix3Xd {
-    return input.white.cwiseInverse().asDiagonal() * bandWeights(input.light, input.curves, count);
-  };
-  const Eigen::Matrix3Xd weights = weightsOf(bandCount);
-  state->basis = signalBasis(weights, state->diagnostics.conditionNumber);
-  state->diagnostics.rank = static_cast<int>(state->basis.cols());
-  Eigen::Matrix3Xd rows = Eigen::Matrix3Xd::Zero(3, bandCount);
-  rows.topRows(state->basis.cols()) = state->basis.transpose() * weights;
-  state->solver.emplace(rows);
-  const bool isCamera = spec.input.observer.response == spectral::Observer::Response::Camera;
-  const auto coneOf = [&](const Eigen::Matrix3Xd& rays) { return FeasibleCone(rays, state->basis); };
-  const auto inRange = [&](const Eigen::Matrix3Xd& all) { return isCamera ? withinRange(all, input.curves) : all; };
-  // What these bands can make, and what it takes no impossible reflectance for: the latter whatever the bands.
-  state->cone = coneOf(inRange(weights)).within(coneOf(litGenerators(inRange(weightsOf(kConvergedBandCount)))));
-
-  const Eigen::Matrix3d matrix = state->rgbFromSpectrum * state->onResponse(state->solver->unconstrained());
-  const Eigen::Matrix3d ordinaryAdaptation =
-      rgbFromOutputXyz * cones.inverse() * (outputCones / inputCones).matrix().asDiagonal() * cones * xyzFromNormalised;
-  state->extension =
-      matrix + ordinaryAdaptation * (Eigen::Matrix3d::Identity() - state->basis * state->basis.transpose());
-  state->diagnostics.matrixGain =
-      Eigen::JacobiSVD<Eigen::Matrix3d>(state->extension * state->responseFromRgb).singularValues()[0];
-
-  if (spec.scene.kind != ReferenceScene::Kind::Smooth) {
-    if (state->basis.cols() < 3) {
-      throw InputError(spec.input.illuminant.name(), "scene", "dataset or prior",
-                       "this light does not tell three channels apart; use scene kind smooth");
-    }
-    if (spec.scene.samples.empty()) {
-      throw InputError("recipe", "scene.set", "", "a dataset or prior needs a set of reflectances");
-    }
-    Eigen::MatrixXd samples(bandCount, static_cast<Eigen::Index>(spec.scene.samples.size()));
-    for (std::size_t i = 0; i < spec.scene.samples.size(); ++i) {
-      samples.col(static_cast<Eigen::Index>(i)) = atBandCentres(spec.scene.samples[i], bandCount);
-    }
-    if (spec.scene.kind == ReferenceScene::Kind::Dataset) {
-      state->dataset.emplace(weights, samples);
-    } else {
-      state->prior.emplace(weights, xyzFromNormalised, samples, spec.scene.strength, spec.scene.radius);
-    }
+  state->diagnostics.relaxation = relaxation;
+  state->relaxed = relaxation > 0.0;
+  // The price of roughness grows with the number of steps that a slope is spread over.
+  state->solver.emplace(weights, relaxation * (kDecisionBandCount - 1) / (bandCount - 1));
+  state->scene = makeScene(spec.scene, *state->solver);
+  if (!state->identity) {
+    state->setLimits(spec.training);
   }
   m_state = std::move(state);
 }
@@ -242,22 +189,19 @@ Eigen::Vector3d SpectralTransform::apply(const Eigen::Vector3d& rgb) const {
     return rgb;
   }
   const double scale = exposureScale(rgb);
-  const Eigen::Vector3d response = m_state->responseFromRgb * (scale * rgb);
-  const auto projection = m_state->domain().project(response);
-  Eigen::Vector3d result = m_state->extension * (response - projection.point);
-  if (!projection.point.isZero(0.0)) {
-    if (m_state->dataset) {
-      result += m_state->rgbFromSpectrum *
-                (m_state->dataset->locate(projection.point).spectrumFromResponse * projection.point);
-    } else {
-      result += m_state->rgbFromSpectrum * m_state->solve(projection.point).reflectance;
-    }
-  }
-  return result / scale;
+  const Eigen::Vector3d scaled = scale * rgb;
+  const Eigen::Vector3d response = m_state->sides.responseFromRgb * scaled;
+  const Eigen::Vector3d relative = m_state->sides.relativeFromRgb * scaled;
+  const Eigen::Vector3d difference =
+      m_state->relativeResult(relative, response, m_state->solve(response).reflectance) - relative;
+  const double share = m_state->limiter.share(relative, difference).value;
+  return m_state->sides.rgbFromRelative * (relative + share * difference) / scale;
 }
 
 void SpectralTransform::apply(std::span<float> rgba) const {
-  assert(rgba.size() % 4 == 0);
+  if (rgba.size() % 4 != 0) {
+    throw InputError("transform", "pixels", std::to_string(rgba.size()), "give four numbers per pixel");
+  }
   for (std::size_t i = 0; i < rgba.size(); i += 4) {
     Eigen::Map<Eigen::Vector3f> pixel(rgba.data() + i);
     const Eigen::Vector3d result = apply(Eigen::Vector3d(pixel.cast<double>()));
@@ -266,54 +210,49 @@ void SpectralTransform::apply(std::span<float> rgba) const {
 }
 
 SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vector3d& rgb,
-                                                              const ActiveSet* guess) const {
-  Linearisation local;
-  if (m_state->identity) {
-    return {rgb, Eigen::Matrix3d::Identity(), {}, isFeasible(rgb)};
+                                                              const ClampedBands* guess) const {
+  if (m_state->identity || !rgb.allFinite()) {
+    return {rgb, Eigen::Matrix3d::Identity(), {}, 1.0};
   }
-  if (m_state->prior) {
-    local.isFeasible = isFeasible(rgb);
-    // The blend's own gradient has no closed form worth its code: central differences.
-    local.value = apply(rgb);
-    const double step = kDifferenceStep * rgb.cwiseAbs().maxCoeff();
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d offset = step * Eigen::Vector3d::Unit(k);
-      local.matrix.col(k) = (apply(rgb + offset) - apply(rgb - offset)) / (2.0 * step);
-    }
-    return local;
-  }
+  const State& state = *m_state;
   const double scale = rgb.isZero(0.0) ? 1.0 : exposureScale(rgb);
-  const Eigen::Vector3d response = m_state->responseFromRgb * (scale * rgb);
-  const auto projection = m_state->domain().project(response);
-  local.isFeasible = projection.piece == 0;
-  Eigen::Matrix3d inside = Eigen::Matrix3d::Zero();
-  if (!projection.point.isZero(0.0)) {
-    if (m_state->dataset) {
-      inside = m_state->rgbFromSpectrum * m_state->dataset->locate(projection.point).spectrumFromResponse;
-    } else {
-      inside = m_state->onResponse(m_state->linearise(projection.point, guess, local.active));
-    }
-  }
-  local.matrix = (inside * projection.matrix + m_state->extension * (Eigen::Matrix3d::Identity() - projection.matrix)) *
-                 m_state->responseFromRgb;
-  local.value = local.matrix * rgb;
+  const Eigen::Vector3d scaled = scale * rgb;
+  const Eigen::Vector3d response = state.sides.responseFromRgb * scaled;
+  const Eigen::Vector3d relative = state.sides.relativeFromRgb * scaled;
+  SoftBoundSolver::Solution solution;
+  BandTriple slope;
+  std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.local(response); }) {
+          const auto local = kind.local(response);
+          solution = state.solver->solve(response, &local.value, guess);
+          slope = state.solver->derivative(solution.clamped, &local.slope);
+        } else {
+          solution = state.solver->solve(response, nullptr, guess);
+          slope = state.solver->derivative(solution.clamped);
+        }
+      },
+      state.scene);
+  const Eigen::Vector3d difference = state.relativeResult(relative, response, solution.reflectance) - relative;
+  const Eigen::Matrix3d differenceSlope =
+      state.relativeSlope(slope) * state.sides.responseFromRgb - state.sides.relativeFromRgb;
+  const Limiter::Share share = state.limiter.share(relative, difference);
+  Linearisation local;
+  local.clamped = solution.clamped;
+  local.share = share.value;
+  local.matrix = state.sides.rgbFromRelative *
+                 (state.sides.relativeFromRgb + share.value * differenceSlope +
+                  difference * (share.slope * state.sides.relativeFromRgb + share.slopeByDifference * differenceSlope));
+  local.value = state.sides.rgbFromRelative * (relative + share.value * difference) / scale;
   return local;
 }
 
-std::optional<Eigen::VectorXd> SpectralTransform::reflectance(const Eigen::Vector3d& rgb) const {
-  const Eigen::Vector3d response = m_state->responseFromRgb * rgb;
-  const auto projection = m_state->domain().project(response);
-  if (!rgb.allFinite() || projection.piece != 0) {
-    return std::nullopt;
+Eigen::VectorXd SpectralTransform::reflectance(const Eigen::Vector3d& rgb) const {
+  if (!rgb.allFinite()) {
+    return Eigen::VectorXd::Zero(bandCount());
   }
-  if (m_state->dataset) {
-    return Eigen::VectorXd(m_state->dataset->locate(response).spectrumFromResponse * response);
-  }
-  return m_state->solve(response).reflectance;
-}
-
-bool SpectralTransform::isFeasible(const Eigen::Vector3d& rgb) const {
-  return rgb.allFinite() && m_state->domain().contains(m_state->responseFromRgb * rgb);
+  const double scale = rgb.isZero(0.0) ? 1.0 : exposureScale(rgb);
+  return m_state->solve(m_state->sides.responseFromRgb * (scale * rgb)).reflectance / scale;
 }
 
 bool SpectralTransform::isIdentity() const {
@@ -325,15 +264,18 @@ int SpectralTransform::bandCount() const {
 const spectral::RgbSpace& SpectralTransform::space() const {
   return m_state->space;
 }
-Eigen::Matrix3d SpectralTransform::unconstrainedMatrix() const {
-  return m_state->identity ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
-                           : Eigen::Matrix3d(m_state->extension * m_state->responseFromRgb);
+Eigen::Matrix3d SpectralTransform::linearMatrix() const {
+  if (m_state->identity) {
+    return Eigen::Matrix3d::Identity();
+  }
+  return m_state->sides.rgbFromRelative * m_state->relativeSlope(m_state->solver->unclamped()) *
+         m_state->sides.responseFromRgb;
 }
 Eigen::Matrix3d SpectralTransform::responseFromRgb() const {
-  return m_state->responseFromRgb;
+  return m_state->sides.responseFromRgb;
 }
 Eigen::Matrix3d SpectralTransform::rgbFromOutputResponse() const {
-  return m_state->rgbFromOutputResponse;
+  return m_state->sides.rgbFromOutputResponse;
 }
 Eigen::Vector3d SpectralTransform::whiteXyz() const {
   return m_state->space.whiteXyz();
@@ -343,18 +285,39 @@ SpectralTransform::Diagnostics SpectralTransform::diagnostics() const {
 }
 
 std::vector<Eigen::Vector3d> SpectralTransform::linearConeCorners() const {
-  if (m_state->identity || m_state->dataset || m_state->prior || m_state->cone->rank() < 3) {
+  const State& state = *m_state;
+  if (state.identity || !std::holds_alternative<std::monostate>(state.scene)) {
     return {};
   }
-  std::vector<Eigen::Vector3d> corners = m_state->cone->corners();
-  const Eigen::MatrixX3d& spectrum = m_state->solver->unconstrained();
-  for (Eigen::Index b = 0; b < spectrum.rows() && corners.size() >= 3; ++b) {
-    corners = clipRays(corners, spectrum.row(b).transpose());
+  // Far corners round all colours that reflectances can make, then the half-spaces: no band below zero, and no more
+  // taken than is left alone (Limiter: half its reach).
+  std::vector<Eigen::Vector3d> corners = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  for (auto& corner : corners) {
+    corner = 8.0 * corner - Eigen::Vector3d::Constant(7.0 / 3.0);
   }
-  if (corners.size() < 3) {
-    return {};
+  std::vector<Eigen::Vector3d> normals;
+  for (Eigen::Index b = 0; b < state.solver->unclamped().rows(); ++b) {
+    normals.emplace_back(state.solver->unclamped().row(b).transpose());
   }
-  const Eigen::Matrix3d rgbFromResponse = m_state->responseFromRgb.inverse();
+  const Eigen::Matrix3d& relative = state.sides.relativeFromResponse;
+  const Eigen::Matrix3d difference = state.relativeSlope(state.solver->unclamped()) - relative;
+  const auto keepWithin = [&](Eigen::Index component, double reach, double sign) {
+    normals.emplace_back((0.5 * reach * relative.row(1) - sign * difference.row(component)).transpose());
+  };
+  const Limiter::Reach& reach = state.limiter.reach();
+  keepWithin(1, reach.up, 1.0);
+  keepWithin(1, reach.down, -1.0);
+  for (const Eigen::Index component : {0, 2}) {
+    keepWithin(component, reach.aside, 1.0);
+    keepWithin(component, reach.aside, -1.0);
+  }
+  for (const Eigen::Vector3d& normal : normals) {
+    corners = clipRays(corners, normal);
+    if (corners.size() < 3) {
+      return {};
+    }
+  }
+  const Eigen::Matrix3d rgbFromResponse = state.sides.responseFromRgb.inverse();
   for (auto& corner : corners) {
     corner = rgbFromResponse * corner;
   }

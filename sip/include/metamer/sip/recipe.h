@@ -23,10 +23,9 @@ struct RecipePipeline {
 };
 
 struct RecipeScene {
-  ReferenceScene::Kind kind = ReferenceScene::Kind::Smooth;
-  std::string set;  ///< reflectance set; needed unless Smooth
-  double strength = 1.0;
-  double radius = 0.04;
+  ReferenceScene::Kind kind = ReferenceScene::Kind::Natural;
+  std::string set;        ///< Dataset: its reflectance set
+  double strength = 1.0;  ///< Skin: 0 = as Natural ... 1
 };
 
 /// The one description that lutgen, configs, the plugin and the validator share (docs/recipe.md). YAML:
@@ -36,7 +35,7 @@ struct RecipeScene {
 ///     space: ACEScg
 ///     input:  {illuminant: D65, filters: [], observer: CIE 1931 2}
 ///     output: {illuminant: HP1, filters: [{file: gel.csv, density: 0.5}], observer: CIE 1931 2, adaptation: 0.0}
-///     scene:  {kind: smooth}
+///     scene:  {kind: natural}
 ///     cat: vonkries
 ///
 /// A filter is a NAME, or a map with `name` or `file`, and `density`. `keep_exposure: true` keeps the light that

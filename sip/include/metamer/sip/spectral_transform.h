@@ -3,13 +3,12 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "metamer/sip/clamped_bands.h"
 #include "metamer/sip/pipeline.h"
-#include "metamer/sip/smoothest_spectrum.h"
 #include "metamer/spectral/chromatic_adaptation.h"
 #include "metamer/spectral/rgb_space.h"
 
@@ -18,15 +17,22 @@ namespace metamer::sip {
 /// How a tristimulus gets its spectrum (course notes, section 5.4).
 struct ReferenceScene {
   enum class Kind {
+    Natural,  ///< measured surfaces and skins: what they deviate from smooth is interpolated over chromaticity
+    Skin,     ///< the same, nearer to skins
     Smooth,   ///< the smoothest spectrum
-    Dataset,  ///< measured spectra, interpolated over chromaticity
-    Prior,    ///< the spectrum that deviates most smoothly from a blend of measured spectra nearby
+    Dataset,  ///< measured spectra, interpolated over triangles of chromaticities
   };
   Kind kind = Kind::Smooth;
   std::vector<spectral::DomainSamples> samples;  ///< reflectances; empty for Smooth
-  double strength = 1.0;                         ///< Prior: 0 = smooth ... 1 = the blend in full
-  double radius = 0.04;                          ///< Prior: standard deviation of the kernel in CIE xy
+  std::vector<spectral::DomainSamples> skins;    ///< Natural, Skin: reflectances of skins
+  double strength = 1.0;                         ///< Skin: 0 = as Natural ... 1
 };
+
+/// What a message says of any other name.
+inline constexpr const char* kSceneKindRemedy = "must be natural, skin, smooth or dataset";
+/// "natural", "skin", "smooth", "dataset". @throws spectral::InputError for any other name (lists these)
+ReferenceScene::Kind sceneKindFromName(const std::string& name);
+std::string nameOf(ReferenceScene::Kind kind);
 
 /// Everything that defines a transform: plain values, no names to look up.
 struct TransformSpec {
@@ -37,7 +43,8 @@ struct TransformSpec {
   spectral::ChromaticAdaptation cat = spectral::ChromaticAdaptation::VonKries;
   bool keepExposure = false;  ///< keep the light lost or won by filters
   ReferenceScene scene;
-  std::vector<spectral::DomainSamples> training;  ///< for cameras without a matrix
+  /// Ordinary surfaces: cameras without a matrix are fitted to them, and limits are set so that they are left alone.
+  std::vector<spectral::DomainSamples> training;
   spectral::Observer standardObserver;            ///< CIE 1931 2 degree
 };
 
@@ -64,24 +71,23 @@ class SpectralTransform {
   struct Linearisation {
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();  ///< derivative; value = matrix * rgb (homogeneity)
-    ActiveSet active;                                  ///< bands held at zero
-    bool isFeasible = false;                           ///< as isFeasible()
+    ClampedBands clamped;                              ///< bands where the reflectance is below zero
+    double share = 1.0;                                ///< of the spectral result that the limit keeps
   };
-  /// @param guess  bands held for a colour nearby, where known: saves time, does not change the answer
-  Linearisation linearise(const Eigen::Vector3d& rgb, const ActiveSet* guess = nullptr) const;
+  /// @param guess  bands clamped for a colour nearby, where known: saves time, does not change the answer
+  Linearisation linearise(const Eigen::Vector3d& rgb, const ClampedBands* guess = nullptr) const;
 
-  /// The reflectance given to a colour inside the feasible cone, at the band centres; nothing outside it.
-  std::optional<Eigen::VectorXd> reflectance(const Eigen::Vector3d& rgb) const;
-
-  /// Whether a reflectance can make this colour under the input light (or the data set's hull holds it).
-  bool isFeasible(const Eigen::Vector3d& rgb) const;
+  /// The spectrum given to a colour, at the band centres: a reflectance, but for what lies below zero where no
+  /// reflectance can make the colour. Zero for a colour that is not finite.
+  Eigen::VectorXd reflectance(const Eigen::Vector3d& rgb) const;
 
   bool isIdentity() const;  ///< both pipelines are the same: apply() copies
   int bandCount() const;
   const spectral::RgbSpace& space() const;
-  Eigen::Matrix3d unconstrainedMatrix() const;  ///< the transform where no band is clamped
-  /// Corner rays, in RGB and in order round white, of the cone where unconstrainedMatrix() is exact; empty where there
-  /// is none.
+  /// The transform near colours where no band is clamped, nothing is limited and the scene adds nothing: all of it for
+  /// the smooth scene inside linearConeCorners().
+  Eigen::Matrix3d linearMatrix() const;
+  /// Corner rays, in RGB and in order round white, of the cone where linearMatrix() is exact; empty where there is none.
   std::vector<Eigen::Vector3d> linearConeCorners() const;
   /// White-normalised input response from RGB: (1,1,1) is (1,1,1).
   Eigen::Matrix3d responseFromRgb() const;
@@ -93,8 +99,12 @@ class SpectralTransform {
 
   struct Diagnostics {
     double conditionNumber = 0;  ///< of the white-normalised input weights: how far the input light sees three channels
-    int rank = 3;                ///< channels that the input light really tells apart
-    double matrixGain = 0;       ///< largest singular value of unconstrainedMatrix()
+    double gain = 0;        ///< 95th percentile over the training surfaces, of the smooth linear piece without relaxation
+    double relaxation = 0;  ///< on 81 bands; 0: the tristimulus is met exactly
+    double reachUp = 0;     ///< limits round plain adaptation, of a colour's own luminance
+    double reachDown = 0;
+    double reachAside = 0;
+    double limitedShare = 0;  ///< of the training surfaces that the limit touches
   };
   Diagnostics diagnostics() const;
 

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenes/measured_scene.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace metamer::sip {
+
+namespace {
+
+using Eigen::Index;
+
+/// Of white's mean response: what is darker has no chromaticity to speak of.
+constexpr double kDarkest = 1e-4;
+/// Least variance of the samples' chromaticities in any direction, so that a lamp that hardly tells two channels apart
+/// does not stretch its noise into a scale.
+constexpr double kLeastVariance = 1e-4;
+/// A colour whose mean is this small a part of its largest channel lies so far from all samples that the kernel is zero.
+constexpr double kLeastMean = 1e-4;
+
+constexpr double kInverseReach = std::numbers::sqrt3 / MeasuredScene::kReach;
+
+/// Distances of a place to others, times kInverseReach.
+Eigen::ArrayXd distances(const Eigen::ArrayX2d& places, const Eigen::Vector2d& place) {
+  return kInverseReach *
+         ((places.col(0) - place.x()).square() + (places.col(1) - place.y()).square()).sqrt();
+}
+
+bool isNearSamples(const Eigen::Vector3d& response) {
+  return response.mean() > kLeastMean * response.cwiseAbs().maxCoeff();
+}
+
+/// The channels in order of their weights' centroids: the middle one second.
+std::array<Index, 3> alongSpectrum(const Eigen::Matrix3Xd& weights) {
+  const Eigen::VectorXd bands = Eigen::VectorXd::LinSpaced(weights.cols(), 0.0, 1.0);
+  const Eigen::Vector3d centroids = (weights * bands).cwiseQuotient(weights.rowwise().sum());
+  std::array<Index, 3> order = {0, 1, 2};
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return centroids[a] > centroids[b]; });
+  return order;
+}
+
+}  // namespace
+
+MeasuredScene::MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixXd& reflectances,
+                             const Eigen::VectorXd& noise) {
+  const Eigen::Matrix3Xd& weights = solver.weights();
+  const auto [first, middle, last] = alongSpectrum(weights);
+  m_differences.setZero();
+  m_differences(0, first) = 1.0;
+  m_differences(1, last) = 1.0;
+  m_differences.col(middle).setConstant(-1.0);
+
+  const Eigen::Matrix3Xd all = weights * reflectances;
+  std::vector<Index> used;
+  for (Index i = 0; i < all.cols(); ++i) {
+    if (all.col(i).mean() >= kDarkest) {
+      used.push_back(i);
+    }
+  }
+  const Eigen::Matrix3Xd responses = all(Eigen::all, used);
+  const Eigen::RowVectorXd means = responses.colwise().mean();
+  const Index count = responses.cols();
+
+  Eigen::Matrix2Xd places = (m_differences * responses).array().rowwise() / means.array();
+  const Eigen::Vector2d centre = places.rowwise().mean();
+  const Eigen::Matrix2Xd centred = places.colwise() - centre;
+  const Eigen::Matrix2d covariance = centred * centred.transpose() / std::max<double>(1.0, static_cast<double>(count));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
+  const Eigen::Matrix2d whitening = axes.eigenvectors() *
+                                    axes.eigenvalues().cwiseMax(kLeastVariance).cwiseSqrt().cwiseInverse().asDiagonal() *
+                                    axes.eigenvectors().transpose();
+  m_differences = whitening * m_differences;
+  // The perfect reflector comes last: no difference between its channels, and no deviation.
+  m_places.resize(count + 1, 2);
+  m_places.topRows(count) = (whitening * places).transpose().array();
+  m_places.row(count).setZero();
+
+  Eigen::MatrixXd deviations = Eigen::MatrixXd::Zero(count + 1, weights.cols());
+  deviations.topRows(count) = ((reflectances(Eigen::all, used) - solver.unclamped() * responses).array().rowwise() /
+                               means.array()).matrix().transpose();
+  Eigen::MatrixXd kernel(count + 1, count + 1);
+  for (Index i = 0; i <= count; ++i) {
+    const Eigen::ArrayXd t = distances(m_places, m_places.row(i).transpose());
+    kernel.col(i) = ((1.0 + t) * (-t).exp()).matrix();
+    kernel(i, i) += i < count ? noise[used[static_cast<std::size_t>(i)]] : 0.0;
+  }
+  m_coefficients = Eigen::LLT<Eigen::MatrixXd>(kernel).solve(deviations).transpose();
+}
+
+MeasuredScene::Chromaticity MeasuredScene::chromaticityOf(const Eigen::Vector3d& response) const {
+  const double mean = response.mean();
+  const Eigen::Vector2d place = m_differences * response / mean;
+  return {mean, place, m_differences / mean - place * Eigen::RowVector3d::Constant(1.0 / (3.0 * mean))};
+}
+
+BandVector MeasuredScene::deviation(const Eigen::Vector3d& response) const {
+  if (!isNearSamples(response)) {
+    return BandVector::Zero(m_coefficients.rows());
+  }
+  const Chromaticity colour = chromaticityOf(response);
+  const Eigen::ArrayXd t = distances(m_places, colour.place);
+  return colour.mean * (m_coefficients * ((1.0 + t) * (-t).exp()).matrix());
+}
+
+MeasuredScene::Local MeasuredScene::local(const Eigen::Vector3d& response) const {
+  const Index bandCount = m_coefficients.rows();
+  if (!isNearSamples(response)) {
+    return {BandVector::Zero(bandCount), BandTriple::Zero(bandCount, 3)};
+  }
+  const Chromaticity colour = chromaticityOf(response);
+  const Eigen::ArrayXd t = distances(m_places, colour.place);
+  const Eigen::ArrayXd fade = (-t).exp();
+  Eigen::MatrixX3d kernel(t.size(), 3);
+  kernel.col(0) = ((1.0 + t) * fade).matrix();
+  for (Index k = 0; k < 2; ++k) {
+    kernel.col(1 + k) = (kInverseReach * kInverseReach * (m_places.col(k) - colour.place[k]) * fade).matrix();
+  }
+  const Eigen::MatrixX3d sums = m_coefficients * kernel;
+  Local local;
+  local.value = colour.mean * sums.col(0);
+  local.slope = sums.col(0) * Eigen::RowVector3d::Constant(1.0 / 3.0) + colour.mean * (sums.rightCols<2>() * colour.slope);
+  return local;
+}
+
+}  // namespace metamer::sip

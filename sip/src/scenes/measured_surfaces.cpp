@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenes/measured_surfaces.h"
+
+#include <algorithm>
+
+namespace metamer::sip {
+
+namespace {
+
+constexpr const char* kModelSkins = "model skins";
+constexpr double kTwinRms = 0.02;
+
+}  // namespace
+
+std::vector<spectral::DomainSamples> onDomain(const spectral::ReflectanceSet& set) {
+  std::vector<spectral::DomainSamples> samples;
+  samples.reserve(set.samples.size());
+  for (const auto& sample : set.samples) {
+    samples.push_back(sample.onDomain());
+  }
+  return samples;
+}
+
+std::vector<spectral::DomainSamples> measuredSurfaces(const spectral::DataLibrary& library) {
+  constexpr double kTwinSquares = kTwinRms * kTwinRms * spectral::kDomainSize;
+  std::vector<spectral::DomainSamples> surfaces;
+  for (const std::string& name : library.reflectanceSetNames()) {
+    if (name == kModelSkins) {
+      continue;
+    }
+    for (const spectral::DomainSamples& sample : onDomain(library.reflectances(name))) {
+      const bool isTwin = std::any_of(surfaces.begin(), surfaces.end(), [&](const spectral::DomainSamples& earlier) {
+        return (earlier - sample).squaredNorm() < kTwinSquares;
+      });
+      if (!isTwin) {
+        surfaces.push_back(sample);
+      }
+    }
+  }
+  return surfaces;
+}
+
+std::vector<spectral::DomainSamples> modelSkins(const spectral::DataLibrary& library) {
+  return onDomain(library.reflectances(kModelSkins));
+}
+
+}  // namespace metamer::sip

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "metamer/sip/band_weights.h"
+#include "metamer/sip/clamped_bands.h"
+
+namespace metamer::sip {
+
+/// A spectrum at the band centres, on the stack.
+using BandVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kConvergedBandCount, 1>;
+/// Three of them, a column a channel.
+using BandTriple = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kConvergedBandCount, 3>;
+
+/// The smooth spectrum that has a given tristimulus, softly bounded below (course notes, section 5.5, its bound made
+/// soft).
+///
+/// Minimises `sum_b (D[b+1] - D[b])^2 + omega sum_b min(R[b], 0)^2`, D = R - P, subject to `weights * R = c`: as smooth
+/// beside the prior P as can be, and paying for what lies below zero. Unlike a hard bound it has an answer for every c,
+/// it is nowhere steep, and it is homogeneous of degree one in (c, P). A relaxed solver pays
+/// `relaxation |c - weights * (R - P)|^2` in place of the constraint.
+///
+/// With the bands below zero given, the optimality conditions are tridiagonal plus three equations. Newton's method
+/// guesses these bands, solves, and guesses again until they hold, halving steps that do not descend: a convex problem,
+/// piecewise quadratic, so it ends. Free bands before the first clamped one and behind the last only hand their load on,
+/// so that elimination runs between these two alone.
+///
+/// Immutable after construction, safe to share between threads.
+class SoftBoundSolver {
+ public:
+  /// Price of a band below zero for bands `h` nm apart: `omega = kBoundPricePerSquareNm h^2`.
+  static constexpr double kBoundPricePerSquareNm = 0.2;
+
+  /// @param weights     3 x B, B within kMinimumBandCount ... kConvergedBandCount, each row's sum 1: the perfect
+  ///                    reflector has tristimulus (1, 1, 1)
+  /// @param relaxation  0: `weights * R = c` exactly; else the price of what is missed, above 0
+  explicit SoftBoundSolver(const Eigen::Matrix3Xd& weights, double relaxation = 0.0);
+
+  struct Solution {
+    BandVector reflectance;  ///< R, B values
+    ClampedBands clamped;    ///< the bands where R is below zero
+    int rounds = 0;          ///< systems solved
+  };
+  /// @param tristimulus  c, any finite three numbers
+  /// @param prior        P, or null for zero; with `weights * P = 0` to rounding where the constraint is exact
+  /// @param start        a guess of the bands below zero; changes the time, not the answer (beyond rounding)
+  Solution solve(const Eigen::Vector3d& tristimulus, const BandVector* prior = nullptr,
+                 const ClampedBands* start = nullptr) const;
+
+  /// dR / dc where a solution lies, B x 3.
+  /// @param priorSlope  dP / dc, B x 3, or null for zero
+  BandTriple derivative(const ClampedBands& clamped, const BandTriple* priorSlope = nullptr) const;
+
+  /// The spectrum where no band is clamped and P = 0: `unclamped() * c` (B x 3).
+  const BandTriple& unclamped() const { return m_unclamped; }
+
+  const Eigen::Matrix3Xd& weights() const { return m_weights; }
+  int bandCount() const { return static_cast<int>(m_weights.cols()); }
+
+ private:
+  struct Elimination;
+
+  /// What is minimised, with c - weights * (R - P) for the missed part.
+  double objective(const BandVector& spectrum, const BandVector* prior, const Eigen::Vector3d& target) const;
+
+  Eigen::Matrix3Xd m_weights;
+  std::vector<Eigen::Array4d> m_load;       ///< a band's weights in three lanes, then zero
+  std::vector<Eigen::Array4d> m_loadUpTo;   ///< sum of m_load[0 ... b]
+  std::vector<Eigen::Array4d> m_loadBehind; ///< sum of m_load[b ... B - 1]
+  double m_boundPrice;
+  double m_slack;       ///< 1 / relaxation; 0 where the constraint is exact
+  double m_relaxation;  ///< 0 where it is exact
+  BandTriple m_unclamped;
+};
+
+}  // namespace metamer::sip

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "metamer/spectral/rgb_space.h"
+
+namespace metamer::sip {
+
+/// CIEDE2000 between neighbouring colours: its limit for small differences, a quadratic form. Steers refinement; the
+/// error protocol measures the result with the full formula.
+class PerceptualMetric {
+ public:
+  explicit PerceptualMetric(const spectral::RgbSpace& space);
+
+  /// Matrix G: |G * error| is the CIEDE2000 between `output + error` and `output` for a small error, both scaled by the
+  /// exposure that puts `input` at Y = 0.18. Where the input's luminance is small or negative it counts as a fiftieth of
+  /// the largest tristimulus.
+  Eigen::Matrix3d at(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const;
+
+  /// The same for colours and errors that are XYZ over the working white.
+  Eigen::Matrix3d atRelative(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const;
+
+ private:
+  Eigen::Matrix3d m_relativeFromRgb;  ///< XYZ over white
+};
+
+}  // namespace metamer::sip
