@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "judge/spectral_locus.h"
 #include "metamer/sip/band_weights.h"
 #include "metamer/spectral/colorimetry.h"
 
@@ -40,6 +41,7 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
     return rgbFromXyz * spectral::xyzFromChromaticity(xy, kProbeLuminance);
   };
 
+  const SpectralLocus locus(spec.standardObserver);
   // Roberts' R2 sequence on the parallelogram of two sides of the gamut, folded into the triangle.
   const double plastic = 1.32471795724474602596;
   const std::array<double, 2> step = {1.0 / plastic, 1.0 / (plastic * plastic)};
@@ -52,7 +54,7 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
       v = 1.0 - v;
     }
     const Eigen::Vector2d xy = origin + u * (spec.space.primaries[1] - origin) + v * (spec.space.primaries[2] - origin);
-    if (xy.y() > 1e-3 && m_converged.isFeasible(colourAt(xy))) {
+    if (locus.contains(xy)) {
       add(label("xy", xy.x(), xy.y()), colourAt(xy));
       ++kept;
     }
@@ -69,14 +71,7 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
   for (int i = 0; i < options.ringCount; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / options.ringCount;
     const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-    double inside = 0.0;
-    double outside = 1.0;
-    for (int halving = 0; halving < 40; ++halving) {
-      const double middle = 0.5 * (inside + outside);
-      const Eigen::Vector2d xy = white + middle * direction;
-      (xy.y() > 1e-6 && m_converged.isFeasible(colourAt(xy)) ? inside : outside) = middle;
-    }
-    const Eigen::Vector2d xy = white + kRingFraction * inside * direction;
+    const Eigen::Vector2d xy = white + kRingFraction * locus.distanceFrom(white, direction) * direction;
     add(label("ring", xy.x(), xy.y()), colourAt(xy));
   }
 }

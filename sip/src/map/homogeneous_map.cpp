@@ -19,9 +19,6 @@ namespace {
 
 using Map = HomogeneousMap;
 
-/// Colours that no reflectance can make are judged this much more leniently.
-constexpr double kOutsideLeniency = 10.0;
-
 /// Down to this level a patch is checked in the middles of its edges too: on a large cell the border of what
 /// reflectances can make may pass the middle by.
 constexpr int kEdgeCheckLevels = 3;
@@ -133,11 +130,10 @@ class Part {
   /// The transform at a point of a face, as a function of the face's coordinates.
   struct Node {
     Eigen::Vector3d value;
-    ActiveSet active;
+    ClampedBands clamped;
     Eigen::Vector3d alongU;  ///< derivative per unit of the first face coordinate
     Eigen::Vector3d alongV;
     Eigen::Matrix3d metric;  ///< length of metric * error is about CIEDE2000
-    double tolerance;
   };
   struct Placed {
     int level;
@@ -146,8 +142,8 @@ class Part {
     std::uint32_t patch;
   };
 
-  /// Position in units of half the finest cell, between two nodes close by (the same twice where there is but one).
-  const Node& node(int u, int v, const Node& a, const Node& b) {
+  /// Position in units of half the finest cell, with a node close by.
+  const Node& node(int u, int v, const Node& near) {
     const std::uint64_t key = (static_cast<std::uint64_t>(u) << 20) | static_cast<std::uint64_t>(v);
     const auto [place, isNew] = m_table->nodes.try_emplace(key);
     Node& made = place->second;
@@ -161,14 +157,12 @@ class Part {
     cube[(axis + 1) % 3] = 2.0 * u / steps - 1.0;
     cube[(axis + 2) % 3] = 2.0 * v / steps - 1.0;
     const Eigen::Vector3d rgb = m_source.rgbFromCube * cube;
-    const ActiveSet guess = between(a.active, b.active);
-    SpectralTransform::Linearisation exact = m_source.transform.linearise(rgb, &guess);
+    const SpectralTransform::Linearisation exact = m_source.transform.linearise(rgb, &near.clamped);
     made.value = exact.value;
-    made.active = std::move(exact.active);
+    made.clamped = exact.clamped;
     made.alongU = exact.matrix * m_source.rgbFromCube.col((axis + 1) % 3);
     made.alongV = exact.matrix * m_source.rgbFromCube.col((axis + 2) % 3);
     made.metric = m_source.metric.at(rgb, made.value);
-    made.tolerance = exact.isFeasible ? m_source.tolerance : kOutsideLeniency * m_source.tolerance;
     ++m_statistics.solves;
     return made;
   }
@@ -194,8 +188,8 @@ class Part {
   }
 
   /// Error of a patch at a checked point over the tolerance there.
-  static double excess(const Adini& patch, const Node& at, double u, double v) {
-    return (at.metric * (evaluate(patch, u, v) - at.value)).norm() / at.tolerance;
+  double excess(const Adini& patch, const Node& at, double u, double v) const {
+    return (at.metric * (evaluate(patch, u, v) - at.value)).norm() / m_source.tolerance;
   }
 
   /// @param u, v, side  corner and side in units of 1 / steps of the face
@@ -221,23 +215,23 @@ class Part {
 
   /// Corner (u, v) and side of a cell in half finest cells.
   void refine(int u, int v, int side, int level, int i, int j, std::vector<Placed>& placed) {
-    const Node& first = node(u, v, *m_latest, *m_latest);
+    const Node& first = node(u, v, *m_latest);
     m_latest = &first;
-    const Node& second = node(u + side, v, first, first);
-    const Node& third = node(u, v + side, first, first);
-    const Node& fourth = node(u + side, v + side, second, third);
+    const Node& second = node(u + side, v, first);
+    const Node& third = node(u, v + side, first);
+    const Node& fourth = node(u + side, v + side, second);
     const int steps = 1 << (Map::kRootBits[static_cast<std::size_t>(m_face)] + Map::kMaximumDepth + 1);
     const Adini patch = adiniPatch({&first, &second, &third, &fourth}, 2.0 * side / steps);
     const int half = side / 2;
     // The middle first: most patches that fail, fail there.
-    double worst = excess(patch, node(u + half, v + half, first, fourth), 0.5, 0.5);
+    double worst = excess(patch, node(u + half, v + half, first), 0.5, 0.5);
     const bool deepest = level == Map::kDepthLimit[static_cast<std::size_t>(m_face)];
     if ((worst <= 1.0 && level < kEdgeCheckLevels) || (worst > 1.0 && !deepest)) {
       // Also the corners of the four parts, should there be any.
-      worst = std::max({worst, excess(patch, node(u + half, v, first, second), 0.5, 0.0),
-                        excess(patch, node(u, v + half, first, third), 0.0, 0.5),
-                        excess(patch, node(u + side, v + half, second, fourth), 1.0, 0.5),
-                        excess(patch, node(u + half, v + side, third, fourth), 0.5, 1.0)});
+      worst = std::max({worst, excess(patch, node(u + half, v, first), 0.5, 0.0),
+                        excess(patch, node(u, v + half, first), 0.0, 0.5),
+                        excess(patch, node(u + side, v + half, second), 1.0, 0.5),
+                        excess(patch, node(u + half, v + side, third), 0.5, 1.0)});
     }
     if (worst <= 1.0 || deepest) {
       m_statistics.largestError = std::max(m_statistics.largestError, worst * m_source.tolerance);
@@ -318,7 +312,7 @@ HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double to
   const Source source(transform, tolerance);
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.cubeFromRgb.data()) = source.cubeFromRgb.cast<float>();
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.linearMatrix.data()) =
-      transform.unconstrainedMatrix().cast<float>();
+      transform.linearMatrix().cast<float>();
   addLinearCone(source, map);
   std::deque<Part> parts;  // which hold pointers into themselves
   std::uint32_t rootCount = 0;

@@ -209,15 +209,16 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
 }
 
 TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library, const spectral::RgbSpace& space) {
-  TransformSpec spec{.space = space,
-                     .input = resolvePipeline(recipe, "input", recipe.input, library),
-                     .output = resolvePipeline(recipe, "output", recipe.output, library),
-                     .adaptation = recipe.adaptation,
-                     .cat = recipe.cat,
-                     .keepExposure = recipe.keepExposure,
-                     .scene = {.kind = recipe.scene.kind, .samples = {}, .skins = {}, .strength = recipe.scene.strength},
-                     .training = measuredSurfaces(library),
-                     .standardObserver = library.observer(kStandardObserver)};
+  TransformSpec spec{
+      .space = space,
+      .input = resolvePipeline(recipe, "input", recipe.input, library),
+      .output = resolvePipeline(recipe, "output", recipe.output, library),
+      .adaptation = recipe.adaptation,
+      .cat = recipe.cat,
+      .keepExposure = recipe.keepExposure,
+      .scene = {.kind = recipe.scene.kind, .samples = {}, .skins = {}, .strength = recipe.scene.strength},
+      .training = measuredSurfaces(library),
+      .standardObserver = library.observer(kStandardObserver)};
   switch (recipe.scene.kind) {
     case ReferenceScene::Kind::Smooth:
       break;

@@ -38,10 +38,10 @@ class DatasetScene {
   BandTriple piece(const Eigen::Vector3d& response) const;
 
   std::vector<std::array<int, 3>> m_triangles;
-  std::vector<Eigen::Matrix3d> m_barycentric;        ///< sample weights from response
-  std::vector<std::array<int, 2>> m_hull;            ///< edges that one triangle alone has
-  Eigen::Matrix3Xd m_responses;                      ///< unit-sum rays of the merged samples
-  Eigen::MatrixXd m_deviations;                      ///< B x n
+  std::vector<Eigen::Matrix3d> m_barycentric;  ///< sample weights from response
+  std::vector<std::array<int, 2>> m_hull;      ///< edges that one triangle alone has
+  Eigen::Matrix3Xd m_responses;                ///< unit-sum rays of the merged samples
+  Eigen::MatrixXd m_deviations;                ///< B x n
 };
 
 }  // namespace metamer::sip

@@ -20,15 +20,15 @@ constexpr double kDarkest = 1e-4;
 /// Least variance of the samples' chromaticities in any direction, so that a lamp that hardly tells two channels apart
 /// does not stretch its noise into a scale.
 constexpr double kLeastVariance = 1e-4;
-/// A colour whose mean is this small a part of its largest channel lies so far from all samples that the kernel is zero.
+/// A colour whose mean is this small a part of its largest channel lies so far from all samples that the kernel is
+/// zero.
 constexpr double kLeastMean = 1e-4;
 
 constexpr double kInverseReach = std::numbers::sqrt3 / MeasuredScene::kReach;
 
 /// Distances of a place to others, times kInverseReach.
 Eigen::ArrayXd distances(const Eigen::ArrayX2d& places, const Eigen::Vector2d& place) {
-  return kInverseReach *
-         ((places.col(0) - place.x()).square() + (places.col(1) - place.y()).square()).sqrt();
+  return kInverseReach * ((places.col(0) - place.x()).square() + (places.col(1) - place.y()).square()).sqrt();
 }
 
 bool isNearSamples(const Eigen::Vector3d& response) {
@@ -71,9 +71,9 @@ MeasuredScene::MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixX
   const Eigen::Matrix2Xd centred = places.colwise() - centre;
   const Eigen::Matrix2d covariance = centred * centred.transpose() / std::max<double>(1.0, static_cast<double>(count));
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance);
-  const Eigen::Matrix2d whitening = axes.eigenvectors() *
-                                    axes.eigenvalues().cwiseMax(kLeastVariance).cwiseSqrt().cwiseInverse().asDiagonal() *
-                                    axes.eigenvectors().transpose();
+  const Eigen::Matrix2d whitening =
+      axes.eigenvectors() * axes.eigenvalues().cwiseMax(kLeastVariance).cwiseSqrt().cwiseInverse().asDiagonal() *
+      axes.eigenvectors().transpose();
   m_differences = whitening * m_differences;
   // The perfect reflector comes last: no difference between its channels, and no deviation.
   m_places.resize(count + 1, 2);
@@ -81,8 +81,10 @@ MeasuredScene::MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixX
   m_places.row(count).setZero();
 
   Eigen::MatrixXd deviations = Eigen::MatrixXd::Zero(count + 1, weights.cols());
-  deviations.topRows(count) = ((reflectances(Eigen::all, used) - solver.unclamped() * responses).array().rowwise() /
-                               means.array()).matrix().transpose();
+  deviations.topRows(count) =
+      ((reflectances(Eigen::all, used) - solver.unclamped() * responses).array().rowwise() / means.array())
+          .matrix()
+          .transpose();
   Eigen::MatrixXd kernel(count + 1, count + 1);
   for (Index i = 0; i <= count; ++i) {
     const Eigen::ArrayXd t = distances(m_places, m_places.row(i).transpose());
@@ -123,7 +125,8 @@ MeasuredScene::Local MeasuredScene::local(const Eigen::Vector3d& response) const
   const Eigen::MatrixX3d sums = m_coefficients * kernel;
   Local local;
   local.value = colour.mean * sums.col(0);
-  local.slope = sums.col(0) * Eigen::RowVector3d::Constant(1.0 / 3.0) + colour.mean * (sums.rightCols<2>() * colour.slope);
+  local.slope =
+      sums.col(0) * Eigen::RowVector3d::Constant(1.0 / 3.0) + colour.mean * (sums.rightCols<2>() * colour.slope);
   return local;
 }
 

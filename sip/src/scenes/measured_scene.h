@@ -15,8 +15,8 @@ namespace metamer::sip {
 /// observer and light will do. The kernel is Matern's of order 3/2, `(1 + t) exp(-t)`, t = sqrt(3) |q - q'| / kReach:
 /// without the cusps of an exponential, which a table would have to follow. The deviation of a colour is
 /// `P(a) = max(n, 0) k(q) (K + diag noise)^-1 D`, D the samples' deviations for n = 1; it has no response of its own
-/// (`weights * P = 0`), fades away from all samples, and is homogeneous of degree one. The perfect reflector is a sample
-/// without noise, so neutrals stay on it.
+/// (`weights * P = 0`), fades away from all samples, and is homogeneous of degree one. The perfect reflector is a
+/// sample without noise, so neutrals stay on it.
 ///
 /// Immutable after construction, safe to share between threads.
 class MeasuredScene {

@@ -10,8 +10,8 @@ namespace metamer::sip {
 /// The samples of a set on the integration domain.
 std::vector<spectral::DomainSamples> onDomain(const spectral::ReflectanceSet& set);
 
-/// All measured reflectances of the library, in the order of its tables, less twins: a sample within an rms of 0.02 of an
-/// earlier one is the same paint measured again.
+/// All measured reflectances of the library, in the order of its tables, less twins: a sample within an rms of 0.02 of
+/// an earlier one is the same paint measured again.
 std::vector<spectral::DomainSamples> measuredSurfaces(const spectral::DataLibrary& library);
 
 /// The library's modelled skins.

@@ -282,8 +282,7 @@ BandTriple SoftBoundSolver::derivative(const ClampedBands& clamped, const BandTr
   for (int b = 0; b < count; ++b) {
     pulled.row(b) = answers[at(b)].head<3>().matrix().transpose();
   }
-  const Eigen::Matrix3d inverse =
-      (m_weights * pulled + m_slack * Eigen::Matrix3d::Identity()).inverse();
+  const Eigen::Matrix3d inverse = (m_weights * pulled + m_slack * Eigen::Matrix3d::Identity()).inverse();
   if (priorSlope == nullptr) {
     return pulled * inverse;
   }
@@ -293,11 +292,10 @@ BandTriple SoftBoundSolver::derivative(const ClampedBands& clamped, const BandTr
     return all;
   };
   const BandTriple& p = *priorSlope;
-  elimination.solve(
-      [&](int b) { return lanes((p.row(b) - p.row(b - 1)) + (p.row(b) - p.row(b + 1))); },
-      [&](int b) { return b + 1 < count ? lanes(p.row(b) - p.row(b + 1)) : Array4d(Array4d::Zero()); },
-      [&](int b) { return b > 0 ? lanes(p.row(b) - p.row(b - 1)) : Array4d(Array4d::Zero()); }, Array4d::Zero(),
-      answers);
+  elimination.solve([&](int b) { return lanes((p.row(b) - p.row(b - 1)) + (p.row(b) - p.row(b + 1))); },
+                    [&](int b) { return b + 1 < count ? lanes(p.row(b) - p.row(b + 1)) : Array4d(Array4d::Zero()); },
+                    [&](int b) { return b > 0 ? lanes(p.row(b) - p.row(b - 1)) : Array4d(Array4d::Zero()); },
+                    Array4d::Zero(), answers);
   BandTriple own(count, 3);
   for (int b = 0; b < count; ++b) {
     own.row(b) = answers[at(b)].head<3>().matrix().transpose();

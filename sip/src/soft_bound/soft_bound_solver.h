@@ -24,8 +24,8 @@ using BandTriple = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kConvergedBandCou
 ///
 /// With the bands below zero given, the optimality conditions are tridiagonal plus three equations. Newton's method
 /// guesses these bands, solves, and guesses again until they hold, halving steps that do not descend: a convex problem,
-/// piecewise quadratic, so it ends. Free bands before the first clamped one and behind the last only hand their load on,
-/// so that elimination runs between these two alone.
+/// piecewise quadratic, so it ends. Free bands before the first clamped one and behind the last only hand their load
+/// on, so that elimination runs between these two alone.
 ///
 /// Immutable after construction, safe to share between threads.
 class SoftBoundSolver {
@@ -66,9 +66,9 @@ class SoftBoundSolver {
   double objective(const BandVector& spectrum, const BandVector* prior, const Eigen::Vector3d& target) const;
 
   Eigen::Matrix3Xd m_weights;
-  std::vector<Eigen::Array4d> m_load;       ///< a band's weights in three lanes, then zero
-  std::vector<Eigen::Array4d> m_loadUpTo;   ///< sum of m_load[0 ... b]
-  std::vector<Eigen::Array4d> m_loadBehind; ///< sum of m_load[b ... B - 1]
+  std::vector<Eigen::Array4d> m_load;        ///< a band's weights in three lanes, then zero
+  std::vector<Eigen::Array4d> m_loadUpTo;    ///< sum of m_load[0 ... b]
+  std::vector<Eigen::Array4d> m_loadBehind;  ///< sum of m_load[b ... B - 1]
   double m_boundPrice;
   double m_slack;       ///< 1 / relaxation; 0 where the constraint is exact
   double m_relaxation;  ///< 0 where it is exact

@@ -9,70 +9,120 @@ namespace metamer::sip {
 
 namespace {
 
+using Eigen::Index;
+using Eigen::RowVector3d;
+using Eigen::Vector3d;
+
 /// Of the surfaces, this share is meant to be left alone.
 constexpr double kLeftAlone = 0.98;
+/// X and Z count this part of themselves as a colour's size.
+constexpr double kOwnSize = 1.0 / 8.0;
 
-/// The value that this share of all does not exceed.
+/// A number with its derivative by a colour.
+struct Graded {
+  double value;
+  RowVector3d slope;
+};
+
+Graded largerOf(const Graded& a, const Graded& b) {
+  return a.value >= b.value ? a : b;
+}
+
+Graded luminanceSize(const Vector3d& colour) {
+  return colour.y() > 0.0 ? Graded{colour.y(), RowVector3d::UnitY()} : Graded{0.0, RowVector3d::Zero()};
+}
+
+Graded sideSize(const Vector3d& colour) {
+  Graded size = luminanceSize(colour);
+  for (const Index k : {0, 2}) {
+    size = largerOf({kOwnSize * std::abs(colour[k]), std::copysign(kOwnSize, colour[k]) * RowVector3d::Unit(k)}, size);
+  }
+  return size;
+}
+
+/// m with its derivative by d.
+Graded taken(const Vector3d& difference, const Limiter::Reach& reach) {
+  const std::array<double, 3> reaches = {reach.aside, difference.y() > 0.0 ? reach.up : reach.down, reach.aside};
+  Graded most{0.0, RowVector3d::Zero()};
+  for (Index k = 0; k < 3; ++k) {
+    const double each = reaches[static_cast<std::size_t>(k)];
+    most = largerOf(most,
+                    {std::abs(difference[k]) / each, std::copysign(1.0 / each, difference[k]) * RowVector3d::Unit(k)});
+  }
+  return most;
+}
+
+struct Share {
+  double value = 1.0;
+  RowVector3d byColour = RowVector3d::Zero();
+  RowVector3d byDifference = RowVector3d::Zero();
+};
+
+Share shareOf(const Graded& size, const Graded& most) {
+  if (most.value <= 0.5 * size.value) {
+    return {};
+  }
+  const double s = size.value / most.value;
+  const double slope = (1.0 - 0.5 * s) / most.value;
+  return {s - 0.25 * s * s, slope * size.slope, -slope * s * most.slope};
+}
+
+/// The value that this share of all does not exceed, linear between ranks.
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) {
     return 0.0;
   }
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+  std::sort(values.begin(), values.end());
+  const double rank = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(rank);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (rank - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
 }  // namespace
 
-Limiter::Reach Limiter::reachFor(const std::vector<Eigen::Vector3d>& colours,
-                                 const std::vector<Eigen::Vector3d>& differences) {
+Limiter::Reach Limiter::reachFor(const std::vector<Vector3d>& colours, const std::vector<Vector3d>& differences) {
   std::vector<double> up;
   std::vector<double> down;
   std::vector<double> aside;
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    const double size = colours[i].y();
-    if (size > 0.0) {
-      const Eigen::Vector3d ratio = differences[i] / size;
-      up.push_back(std::max(ratio.y(), 0.0));
-      down.push_back(std::max(-ratio.y(), 0.0));
-      aside.push_back(std::max(std::abs(ratio.x()), std::abs(ratio.z())));
+    const double luminance = colours[i].y();
+    if (luminance > 0.0) {
+      const Vector3d& d = differences[i];
+      up.push_back(std::max(d.y() / luminance, 0.0));
+      down.push_back(std::max(-d.y() / luminance, 0.0));
+      aside.push_back(std::max(std::abs(d.x()), std::abs(d.z())) / sideSize(colours[i]).value);
     }
   }
   const Reach least;
-  const auto raised = [](std::vector<double> taken, double from, double to) {
-    return std::clamp(2.0 * percentile(std::move(taken), kLeftAlone), from, to);
+  const auto raised = [](std::vector<double> values, double from, double to) {
+    return std::clamp(2.0 * percentile(std::move(values), kLeftAlone), from, to);
   };
   return {raised(std::move(up), least.up, kMostReach.up), raised(std::move(down), least.down, kMostReach.down),
           raised(std::move(aside), least.aside, kMostReach.aside)};
 }
 
-Limiter::Share Limiter::share(const Eigen::Vector3d& colour, const Eigen::Vector3d& difference) const {
-  const double size = std::max(colour.y(), 0.0);
-  // Each of the four takes `difference[component] * factor` of the size.
-  const std::array<std::pair<Eigen::Index, double>, 3> ways = {
-      std::pair<Eigen::Index, double>{1, difference.y() > 0.0 ? 1.0 / m_reach.up : -1.0 / m_reach.down},
-      std::pair<Eigen::Index, double>{0, difference.x() > 0.0 ? 1.0 / m_reach.aside : -1.0 / m_reach.aside},
-      std::pair<Eigen::Index, double>{2, difference.z() > 0.0 ? 1.0 / m_reach.aside : -1.0 / m_reach.aside}};
-  double most = 0.0;
-  std::pair<Eigen::Index, double> tightest = ways[0];
-  for (const auto& way : ways) {
-    const double taken = difference[way.first] * way.second;
-    if (taken > most) {
-      most = taken;
-      tightest = way;
-    }
+bool Limiter::keeps(const Vector3d& colour, const Vector3d& difference) const {
+  return taken(difference, m_reach).value <= 0.5 * luminanceSize(colour).value;
+}
+
+Limiter::Limited Limiter::limited(const Vector3d& colour, const Vector3d& difference) const {
+  const Graded most = taken(difference, m_reach);
+  const Share luminance = shareOf(luminanceSize(colour), most);
+  const Share sides = shareOf(sideSize(colour), most);
+  Limited limited{colour, Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero()};
+  for (Index k = 0; k < 3; ++k) {
+    const Share& own = k == 1 ? luminance : sides;
+    limited.value[k] += own.value * difference[k];
+    limited.byColour.row(k) += difference[k] * own.byColour;
+    limited.byDifference.row(k) = difference[k] * own.byDifference;
+    limited.byDifference(k, k) += own.value;
   }
-  if (most <= 0.5 * size) {
-    return {1.0, Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero()};
-  }
-  const double s = size / most;
-  Share share{s - 0.25 * s * s, Eigen::RowVector3d::Zero(), Eigen::RowVector3d::Zero()};
-  const double slope = (1.0 - 0.5 * s) / most;
-  if (size > 0.0) {
-    share.slope.y() = slope;
-  }
-  share.slopeByDifference[tightest.first] = -slope * s * tightest.second;
-  return share;
+  return limited;
+}
+
+Vector3d Limiter::apply(const Vector3d& colour, const Vector3d& difference) const {
+  return limited(colour, difference).value;
 }
 
 }  // namespace metamer::sip

@@ -9,10 +9,11 @@ namespace metamer::sip {
 /// Keeps what a guessed spectrum does to a colour within bounds around plain chromatic adaptation.
 ///
 /// Colours are XYZ over white, fully adapted, so that plain adaptation leaves a colour as it is: v. With d what the
-/// spectral result differs by, `a = max(v_Y, 0)` and `m = max(d_Y / up, -d_Y / down, |d_X| / aside, |d_Z| / aside)`, the
-/// result is `v + (s - s^2 / 4) d`, s = min(2, a / m). So it is the spectral result wherever m <= a / 2, luminance stays
-/// within (1 - down) v_Y ... (1 + up) v_Y, and nothing is left of d where v_Y <= 0. Continuous on all of R^3, homogeneous
-/// of degree one, with a continuous derivative where the limit sets in.
+/// spectral result differs by and s = min(2, size / m), `m = max(d_Y / up, -d_Y / down, |d_X| / aside, |d_Z| / aside)`,
+/// the result is `v + (s - s^2 / 4) d`. For Y the size is a = max(v_Y, 0): so luminance stays within
+/// (1 - down) v_Y ... (1 + up) v_Y, and is plain where v_Y <= 0. For X and Z it is b = max(a, |v_X| / 8, |v_Z| / 8): Y
+/// is small in blue, and a blue is not to be held to a part of that. The spectral result is untouched wherever m <= a
+/// / 2. Continuous on all of R^3, homogeneous of degree one, with a continuous derivative where the limit sets in.
 class Limiter {
  public:
   struct Reach {
@@ -32,13 +33,18 @@ class Limiter {
 
   const Reach& reach() const { return m_reach; }
 
-  struct Share {
-    double value;              ///< of d that is kept: 0 ... 1
-    Eigen::RowVector3d slope;  ///< by v, and by d
-    Eigen::RowVector3d slopeByDifference;
+  /// Whether d is kept whole at v.
+  bool keeps(const Eigen::Vector3d& colour, const Eigen::Vector3d& difference) const;
+
+  struct Limited {
+    Eigen::Vector3d value;
+    Eigen::Matrix3d byColour;      ///< its derivative by v; of one side where there are two
+    Eigen::Matrix3d byDifference;  ///< by d
   };
-  /// Of d at v; the slopes are those of one side where there are two.
-  Share share(const Eigen::Vector3d& colour, const Eigen::Vector3d& difference) const;
+  /// The result at v for a difference d, with derivatives.
+  Limited limited(const Eigen::Vector3d& colour, const Eigen::Vector3d& difference) const;
+  /// The result alone.
+  Eigen::Vector3d apply(const Eigen::Vector3d& colour, const Eigen::Vector3d& difference) const;
 
  private:
   Reach m_reach;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "soft_bound/soft_bound_solver.h"
+#include "transform/perceptual_metric.h"
 
 namespace metamer::sip {
 
@@ -25,8 +26,7 @@ constexpr double kDarkest = 1e-4;
 
 }  // namespace
 
-double gainOf(const PairWeights& pair, const PerceptualMetric& metric, const Eigen::MatrixXd& surfaces,
-              double relaxation) {
+double gainOf(const PairWeights& pair, const Eigen::MatrixXd& surfaces, double relaxation) {
   const SoftBoundSolver solver(pair.input, relaxation);
   Eigen::Matrix3d matrix = pair.relativeFromSpectrum * solver.unclamped();
   if (relaxation > 0.0) {
@@ -41,8 +41,8 @@ double gainOf(const PairWeights& pair, const PerceptualMetric& metric, const Eig
       continue;
     }
     const Eigen::Vector3d in = pair.relativeFromResponse * response;
-    const Eigen::Matrix3d before = metric.atRelative(in, in);
-    const Eigen::Matrix3d after = metric.atRelative(in, matrix * response);
+    const Eigen::Matrix3d before = PerceptualMetric::atRelative(in);
+    const Eigen::Matrix3d after = PerceptualMetric::atRelative(matrix * response);
     const Eigen::Matrix3d gain = after * relativeFromRelative * before.inverse();
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares;
     squares.computeDirect(gain.transpose() * gain, Eigen::EigenvaluesOnly);
@@ -57,15 +57,15 @@ double gainOf(const PairWeights& pair, const PerceptualMetric& metric, const Eig
   return std::isfinite(percentile) ? percentile : std::numeric_limits<double>::infinity();
 }
 
-double relaxationOf(const PairWeights& pair, const PerceptualMetric& metric, const Eigen::MatrixXd& surfaces) {
-  if (gainOf(pair, metric, surfaces, 0.0) <= kLargestGain) {
+double relaxationOf(const PairWeights& pair, const Eigen::MatrixXd& surfaces) {
+  if (gainOf(pair, surfaces, 0.0) <= kLargestGain) {
     return 0.0;
   }
   double low = kLeastLogRelaxation;
   double high = kMostLogRelaxation;
   for (int halving = 0; halving < kHalvings; ++halving) {
     const double middle = 0.5 * (low + high);
-    (gainOf(pair, metric, surfaces, std::exp2(middle)) <= kLargestGain ? low : high) = middle;
+    (gainOf(pair, surfaces, std::exp2(middle)) <= kLargestGain ? low : high) = middle;
   }
   return std::exp2(low);
 }

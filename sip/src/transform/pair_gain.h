@@ -4,9 +4,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "metamer/spectral/spectrum.h"
-#include "transform/perceptual_metric.h"
-
 namespace metamer::sip {
 
 /// A pair of pipelines as far as its conditioning goes, on the bands that decide it.
@@ -24,15 +21,14 @@ inline constexpr double kLargestGain = 3.0;
 /// How much of a smooth spectrum's response is asked for, so that ordinary colours are not amplified.
 ///
 /// The gain of the linear transform at a surface's colour is CIEDE2000 out per CIEDE2000 in, worst direction, small
-/// step. Where its 95th percentile over the surfaces exceeds kLargestGain (a lamp that hardly tells two channels apart),
-/// the tristimulus is met only as far as keeps it there; the rest takes plain adaptation.
+/// step. Where its 95th percentile over the surfaces exceeds kLargestGain (a lamp that hardly tells two channels
+/// apart), the tristimulus is met only as far as keeps it there; the rest takes plain adaptation.
 /// @param pair      on kDecisionBandCount bands
 /// @param surfaces  reflectances, B x n; not empty
 /// @return SoftBoundSolver's relaxation for kDecisionBandCount bands; 0: exact
-double relaxationOf(const PairWeights& pair, const PerceptualMetric& metric, const Eigen::MatrixXd& surfaces);
+double relaxationOf(const PairWeights& pair, const Eigen::MatrixXd& surfaces);
 
 /// 95th percentile of the gain of the linear transform at the surfaces' colours, for a relaxation as above.
-double gainOf(const PairWeights& pair, const PerceptualMetric& metric, const Eigen::MatrixXd& surfaces,
-              double relaxation);
+double gainOf(const PairWeights& pair, const Eigen::MatrixXd& surfaces, double relaxation);
 
 }  // namespace metamer::sip

@@ -34,14 +34,13 @@ PerceptualMetric::PerceptualMetric(const spectral::RgbSpace& space)
     : m_relativeFromRgb(space.whiteXyz().cwiseInverse().asDiagonal() * space.xyzFromRgb()) {}
 
 Eigen::Matrix3d PerceptualMetric::at(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const {
-  return atRelative(m_relativeFromRgb * input, m_relativeFromRgb * output) * m_relativeFromRgb;
+  const Eigen::Vector3d in = m_relativeFromRgb * input;
+  const double luminance = std::max({in.y(), kLeastRelativeLuminance * in.cwiseAbs().maxCoeff(), kLeastLuminance});
+  const double exposure = kProbeLuminance / luminance;
+  return atRelative(exposure * (m_relativeFromRgb * output)) * (exposure * m_relativeFromRgb);
 }
 
-Eigen::Matrix3d PerceptualMetric::atRelative(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const {
-  const double luminance =
-      std::max({input.y(), kLeastRelativeLuminance * input.cwiseAbs().maxCoeff(), kLeastLuminance});
-  const double exposure = kProbeLuminance / luminance;
-  const Eigen::Vector3d ratio = exposure * output;
+Eigen::Matrix3d PerceptualMetric::atRelative(const Eigen::Vector3d& ratio) {
   const Compressed x = compress(ratio.x());
   const Compressed y = compress(ratio.y());
   const Compressed z = compress(ratio.z());
@@ -82,7 +81,7 @@ Eigen::Matrix3d PerceptualMetric::atRelative(const Eigen::Vector3d& input, const
   weighted(0, 0) = 1.0 / lightnessScale;
   weighted.block<1, 2>(1, 1) = chromaRow + 0.5 * rotation * hueRow;
   weighted.block<1, 2>(2, 1) = std::sqrt(std::max(0.0, 1.0 - 0.25 * rotation * rotation)) * hueRow;
-  return weighted * labFromRatio * exposure;
+  return weighted * labFromRatio;
 }
 
 }  // namespace metamer::sip

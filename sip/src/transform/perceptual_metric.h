@@ -14,12 +14,12 @@ class PerceptualMetric {
   explicit PerceptualMetric(const spectral::RgbSpace& space);
 
   /// Matrix G: |G * error| is the CIEDE2000 between `output + error` and `output` for a small error, both scaled by the
-  /// exposure that puts `input` at Y = 0.18. Where the input's luminance is small or negative it counts as a fiftieth of
-  /// the largest tristimulus.
+  /// exposure that puts `input` at Y = 0.18. Where the input's luminance is small or negative it counts as a fiftieth
+  /// of the largest tristimulus.
   Eigen::Matrix3d at(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const;
 
-  /// The same for colours and errors that are XYZ over the working white.
-  Eigen::Matrix3d atRelative(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const;
+  /// The same for a colour and errors that are XYZ over the working white, at their own exposure.
+  static Eigen::Matrix3d atRelative(const Eigen::Vector3d& colour);
 
  private:
   Eigen::Matrix3d m_relativeFromRgb;  ///< XYZ over white

@@ -64,8 +64,7 @@ Sides prepareSides(const TransformSpec& spec) {
   // The gain in cone space is D W / W_out + (1 - D) W / W_in: this much of full adaptation's.
   const Eigen::Array3d degree = spec.adaptation + (1.0 - spec.adaptation) * outputCones / inputCones;
   sides.rgbFromRelative = exposure * spec.space.rgbFromXyz() * onCones(degree) * white.asDiagonal();
-  const Eigen::Array3d gain =
-      (1.0 - spec.adaptation) * whiteCones / inputCones + spec.adaptation * full;
+  const Eigen::Array3d gain = (1.0 - spec.adaptation) * whiteCones / inputCones + spec.adaptation * full;
   sides.rgbFromOutputResponse = exposure * spec.space.rgbFromXyz() * onCones(gain) * output.xyzFromResponse;
   return sides;
 }

@@ -10,13 +10,12 @@
 
 #include "metamer/sip/band_weights.h"
 #include "metamer/spectral/input_error.h"
+#include "response/ray_polygon.h"
 #include "scenes/dataset_scene.h"
 #include "scenes/measured_scene.h"
 #include "soft_bound/soft_bound_solver.h"
 #include "transform/limiter.h"
 #include "transform/pair_gain.h"
-#include "transform/perceptual_metric.h"
-#include "response/ray_polygon.h"
 #include "transform/sides.h"
 
 namespace metamer::sip {
@@ -26,7 +25,7 @@ using spectral::InputError;
 namespace {
 
 /// Noise of a measured sample in the scene, over the kernel's 1, by cross-validation.
-constexpr double kSampleNoise = 0.1;
+constexpr double kSampleNoise = 0.2;
 constexpr double kSkinNoise = 0.1;
 /// The skin scene's skins are followed by this much more closely at strength 1.
 constexpr double kSkinSceneFactor = 0.1;
@@ -125,11 +124,12 @@ struct SpectralTransform::State {
 };
 
 void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSamples>& training) {
+  // The surfaces' true responses, whatever the bands.
+  const Eigen::Matrix3Xd weights = sides.inputWeights(kConvergedBandCount);
   std::vector<Eigen::Vector3d> colours;
   std::vector<Eigen::Vector3d> differences;
-  const Eigen::MatrixXd surfaces = onBands(training, solver->bandCount());
-  for (Eigen::Index i = 0; i < surfaces.cols(); ++i) {
-    const Eigen::Vector3d response = solver->weights() * surfaces.col(i);
+  for (const spectral::DomainSamples& surface : training) {
+    const Eigen::Vector3d response = weights * surface;
     colours.emplace_back(sides.relativeFromResponse * response);
     differences.emplace_back(relativeResult(colours.back(), response, solve(response).reflectance) - colours.back());
   }
@@ -139,9 +139,10 @@ void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSampl
   diagnostics.reachAside = limiter.reach().aside;
   std::size_t limited = 0;
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    limited += limiter.share(colours[i], differences[i]).value < 1.0 ? 1 : 0;
+    limited += limiter.keeps(colours[i], differences[i]) ? 0 : 1;
   }
-  diagnostics.limitedShare = static_cast<double>(limited) / static_cast<double>(std::max<std::size_t>(1, colours.size()));
+  diagnostics.limitedShare =
+      static_cast<double>(limited) / static_cast<double>(std::max<std::size_t>(1, colours.size()));
 }
 
 SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
@@ -165,9 +166,8 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
     const PairWeights pair{sides.inputWeights(kDecisionBandCount), sides.relativeWeights(kDecisionBandCount),
                            sides.relativeFromResponse};
     const Eigen::MatrixXd surfaces = onBands(spec.training, kDecisionBandCount);
-    const PerceptualMetric metric(spec.space);
-    state->diagnostics.gain = gainOf(pair, metric, surfaces, 0.0);
-    relaxation = relaxationOf(pair, metric, surfaces);
+    state->diagnostics.gain = gainOf(pair, surfaces, 0.0);
+    relaxation = relaxationOf(pair, surfaces);
   }
   state->diagnostics.relaxation = relaxation;
   state->relaxed = relaxation > 0.0;
@@ -194,8 +194,7 @@ Eigen::Vector3d SpectralTransform::apply(const Eigen::Vector3d& rgb) const {
   const Eigen::Vector3d relative = m_state->sides.relativeFromRgb * scaled;
   const Eigen::Vector3d difference =
       m_state->relativeResult(relative, response, m_state->solve(response).reflectance) - relative;
-  const double share = m_state->limiter.share(relative, difference).value;
-  return m_state->sides.rgbFromRelative * (relative + share * difference) / scale;
+  return m_state->sides.rgbFromRelative * m_state->limiter.apply(relative, difference) / scale;
 }
 
 void SpectralTransform::apply(std::span<float> rgba) const {
@@ -212,7 +211,7 @@ void SpectralTransform::apply(std::span<float> rgba) const {
 SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vector3d& rgb,
                                                               const ClampedBands* guess) const {
   if (m_state->identity || !rgb.allFinite()) {
-    return {rgb, Eigen::Matrix3d::Identity(), {}, 1.0};
+    return {rgb, Eigen::Matrix3d::Identity(), {}, false};
   }
   const State& state = *m_state;
   const double scale = rgb.isZero(0.0) ? 1.0 : exposureScale(rgb);
@@ -236,14 +235,13 @@ SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vecto
   const Eigen::Vector3d difference = state.relativeResult(relative, response, solution.reflectance) - relative;
   const Eigen::Matrix3d differenceSlope =
       state.relativeSlope(slope) * state.sides.responseFromRgb - state.sides.relativeFromRgb;
-  const Limiter::Share share = state.limiter.share(relative, difference);
+  const Limiter::Limited limited = state.limiter.limited(relative, difference);
   Linearisation local;
   local.clamped = solution.clamped;
-  local.share = share.value;
+  local.isLimited = !state.limiter.keeps(relative, difference);
   local.matrix = state.sides.rgbFromRelative *
-                 (state.sides.relativeFromRgb + share.value * differenceSlope +
-                  difference * (share.slope * state.sides.relativeFromRgb + share.slopeByDifference * differenceSlope));
-  local.value = state.sides.rgbFromRelative * (relative + share.value * difference) / scale;
+                 (limited.byColour * state.sides.relativeFromRgb + limited.byDifference * differenceSlope);
+  local.value = state.sides.rgbFromRelative * limited.value / scale;
   return local;
 }
 

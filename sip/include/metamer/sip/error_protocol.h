@@ -13,8 +13,8 @@ namespace metamer::sip {
 
 /// The one error protocol of tests, certificates and benchmarks (docs/error_protocol.md).
 ///
-/// Probes: chromaticities spread evenly (R2 low-discrepancy sequence) over the working gamut and inside what
-/// reflectances can make under the input light; the patches of a chart under the input light; a ring at 97 % of the way
+/// Probes: chromaticities spread evenly (R2 low-discrepancy sequence) over the working gamut and inside the spectral
+/// locus; the patches of a chart under the input light; a ring at 97 % of the way
 /// from white to the locus. Each at Y = 0.18 * 2^e (patches at their own luminance * 2^e), e = -10 ... +10.
 /// Error: CIEDE2000 between a candidate's result and the converged engine's (401 bands), both divided by 2^e, relative
 /// to the working white.

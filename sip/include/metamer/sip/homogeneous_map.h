@@ -18,8 +18,8 @@ namespace metamer::sip {
 /// space. Directions are the faces of a cube in coordinates `p = cubeFromRgb * rgb`: a pixel is its largest |p| times
 /// a point of a face. Each face is a grid of root cells, each root cell a dense table of patches 2^depth by 2^depth.
 /// A patch is a cubic (Adini's element) in the face's two coordinates, built from the transform's exact values and
-/// derivatives at its corners and checked between them. Where the transform is one matrix (no band clamped: most
-/// natural colours), the kernel skips the table and applies that matrix.
+/// derivatives at its corners and checked between them. Where the transform is one matrix (scene smooth, no band
+/// clamped, nothing limited), the kernel skips the table and applies that matrix.
 ///
 /// Plain buffers without pointers, ready to be copied to another device. Immutable after build.
 struct HomogeneousMap {
@@ -79,9 +79,9 @@ using ParallelFor = std::function<void(int count, const std::function<void(int)>
 void inOrder(int count, const std::function<void(int)>& body);
 
 /// Builds the map of a transform, the same whatever the threads.
-/// @param tolerance  CIEDE2000 at Y = 0.18, relative to the working white, at each patch's checked points; ten times as
-///                   much beyond what reflectances can make. Patches at the greatest depth may exceed it
-///                   (statistics.largestError says by how much).
+/// @param tolerance  CIEDE2000 at Y = 0.18, relative to the working white, at each patch's checked points. Patches at
+/// the
+///                   greatest depth may exceed it (statistics.largestError says by how much).
 /// @param parallelFor  runs the parts of the map
 HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance = kDefaultMapTolerance,
                                    const ParallelFor& parallelFor = inOrder);

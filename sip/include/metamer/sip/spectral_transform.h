@@ -45,7 +45,7 @@ struct TransformSpec {
   ReferenceScene scene;
   /// Ordinary surfaces: cameras without a matrix are fitted to them, and limits are set so that they are left alone.
   std::vector<spectral::DomainSamples> training;
-  spectral::Observer standardObserver;            ///< CIE 1931 2 degree
+  spectral::Observer standardObserver;  ///< CIE 1931 2 degree
 };
 
 /// The spectral intermediate transform of a specification: RGB in, RGB out, both linear in the working space.
@@ -72,7 +72,7 @@ class SpectralTransform {
     Eigen::Vector3d value = Eigen::Vector3d::Zero();
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();  ///< derivative; value = matrix * rgb (homogeneity)
     ClampedBands clamped;                              ///< bands where the reflectance is below zero
-    double share = 1.0;                                ///< of the spectral result that the limit keeps
+    bool isLimited = false;                            ///< the limit round plain adaptation takes part
   };
   /// @param guess  bands clamped for a colour nearby, where known: saves time, does not change the answer
   Linearisation linearise(const Eigen::Vector3d& rgb, const ClampedBands* guess = nullptr) const;
@@ -87,7 +87,8 @@ class SpectralTransform {
   /// The transform near colours where no band is clamped, nothing is limited and the scene adds nothing: all of it for
   /// the smooth scene inside linearConeCorners().
   Eigen::Matrix3d linearMatrix() const;
-  /// Corner rays, in RGB and in order round white, of the cone where linearMatrix() is exact; empty where there is none.
+  /// Corner rays, in RGB and in order round white, of the cone where linearMatrix() is exact; empty where there is
+  /// none.
   std::vector<Eigen::Vector3d> linearConeCorners() const;
   /// White-normalised input response from RGB: (1,1,1) is (1,1,1).
   Eigen::Matrix3d responseFromRgb() const;
@@ -99,7 +100,7 @@ class SpectralTransform {
 
   struct Diagnostics {
     double conditionNumber = 0;  ///< of the white-normalised input weights: how far the input light sees three channels
-    double gain = 0;        ///< 95th percentile over the training surfaces, of the smooth linear piece without relaxation
+    double gain = 0;  ///< 95th percentile over the training surfaces, of the smooth linear piece without relaxation
     double relaxation = 0;  ///< on 81 bands; 0: the tristimulus is met exactly
     double reachUp = 0;     ///< limits round plain adaptation, of a colour's own luminance
     double reachDown = 0;

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "metamer/spectral/observer.h"
+
+namespace metamer::sip {
+
+/// The chromaticities of all lights: the region that an observer's spectral locus and its purple line enclose.
+class SpectralLocus {
+ public:
+  /// @param observer  a CIE observer: its curves are XYZ
+  explicit SpectralLocus(const spectral::Observer& observer);
+
+  bool contains(const Eigen::Vector2d& xy) const;
+
+  /// How far it is from a chromaticity inside to the border.
+  /// @param direction  of unit length
+  double distanceFrom(const Eigen::Vector2d& xy, const Eigen::Vector2d& direction) const;
+
+ private:
+  std::vector<Eigen::Vector2d> m_corners;  ///< convex, counter-clockwise
+};
+
+}  // namespace metamer::sip
