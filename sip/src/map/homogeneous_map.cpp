@@ -33,6 +33,13 @@ Eigen::Matrix3d cubeFromResponse() {
   return matrix;
 }
 
+/// Scaled by a power of two so that no float32 colour's coordinates overflow.
+Eigen::Matrix3d withoutOverflow(const Eigen::Matrix3d& cubeFromRgb) {
+  int exponent = 0;
+  std::frexp(cubeFromRgb.cwiseAbs().rowwise().sum().maxCoeff(), &exponent);
+  return std::ldexp(1.0, -exponent) * cubeFromRgb;
+}
+
 /// Inscribed polygon with at most `most` corners: drops the corner that costs the least area, again and again.
 std::vector<Eigen::Vector3d> inscribedPolygon(std::vector<Eigen::Vector3d> corners, const Eigen::Matrix3d& cubeFromRgb,
                                               std::size_t most) {
@@ -80,7 +87,7 @@ struct Source {
   Source(const SpectralTransform& given, double givenTolerance)
       : transform(given),
         tolerance(givenTolerance),
-        cubeFromRgb(cubeFromResponse() * given.responseFromRgb()),
+        cubeFromRgb(withoutOverflow(cubeFromResponse() * given.responseFromRgb())),
         rgbFromCube(cubeFromRgb.inverse()),
         metric(given.space()) {}
 
@@ -204,10 +211,8 @@ class Part {
                                       static_cast<float>(v) / static_cast<float>(steps)};
     const int perUnit = steps / side;
     patch.scale = static_cast<float>(perUnit);
-    patch.extent = (1U << (std::numeric_limits<float>::digits - 1)) / static_cast<std::uint32_t>(perUnit);
     for (std::size_t k = 0; k < 2; ++k) {
       patch.offset[k] = (0.5F - low[k]) * patch.scale;
-      patch.corner[k] = 1.0F + low[k];
     }
     ++m_statistics.patches;
     return index;

@@ -4,9 +4,9 @@
 // Every result is the same sequence of float32 operations whatever the instruction set and whichever pixels lie beside
 // it, so neighbours, tails and machines cannot change it.
 //
-// A vector of pixels takes the one matrix where that is exact. For the rest, neighbours mostly share a patch: the
-// patch of the first pixel left is evaluated for all that lie on it, its coefficients the same for every lane, until
-// none is left.
+// A vector of pixels takes the one matrix where that is exact. For the rest the patches are looked up together, and as
+// neighbours mostly share one, the patch of the first pixel left is evaluated for all that lie on it, its coefficients
+// the same for every lane, until none is left.
 #include "metamer/sip/homogeneous_map.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -35,6 +35,7 @@ constexpr std::size_t kMostLanes = 16;
 using Float = hn::CappedTag<float, kMostLanes>;
 using Int = hn::RebindToSigned<Float>;
 using V = hn::VFromD<Float>;
+using I = hn::VFromD<Int>;
 using Mask = hn::Mask<Float>;
 
 /// Keeps the reciprocal of a denormal finite: such a pixel's place is off, by less than it is bright.
@@ -85,52 +86,60 @@ HWY_INLINE void transpose([[maybe_unused]] V& x, [[maybe_unused]] V& y, [[maybe_
 #endif
 }
 
-/// Pixels' places on a face: its coordinates halved (-0.5 ... 0.5), and 1.5 more than that, within [1, 2), whose
-/// mantissa is the cell of the finest grid.
+/// Pixels' places on a face: its coordinates halved (-0.5 ... 0.5), and the cells of the finest grid they lie in.
 struct Places {
   V x;
   V y;
-  V cellX;
-  V cellY;
+  I column;
+  I row;
   V length;  ///< largest |p|
 };
 
-/// @param px, py, length  of pixels divided by `largest`
-HWY_INLINE Places placesOn(V px, V py, V length, V largest) {
+HWY_INLINE Places placesOn(V px, V py, V length, int rootBits) {
   const Float d;
+  const Int di;
+  // One quotient, whose rounding whole stops do not change.
   const V halfReciprocal = hn::Div(hn::Set(d, 0.5F), hn::Max(length, hn::Set(d, kSmallest)));
+  const int cellBits = rootBits + Map::kMaximumDepth;
+  // 1.5 more than a coordinate lies within [1, 2): the top bits of its mantissa are the cell.
   const auto cell = [&](V coordinate) {
-    return hn::Min(hn::Max(hn::Add(coordinate, hn::Set(d, 1.5F)), hn::Set(d, 1.0F)), hn::Set(d, kBelowTwo));
+    const V within = hn::Min(hn::Max(hn::Add(coordinate, hn::Set(d, 1.5F)), hn::Set(d, 1.0F)), hn::Set(d, kBelowTwo));
+    return hn::And(hn::ShiftRightSame(hn::BitCast(di, within), kMantissaBits - cellBits),
+                   hn::Set(di, (1 << cellBits) - 1));
   };
   const V x = hn::Mul(px, halfReciprocal);
   const V y = hn::Mul(py, halfReciprocal);
-  return {x, y, cell(x), cell(y), hn::Mul(length, largest)};
+  return {x, y, cell(x), cell(y), length};
 }
 
-/// The patch of a cell of a face, given as in Places.
-inline const Map::Patch& patchOf(const Map& map, std::size_t face, float cellX, float cellY) {
-  const int rootBits = Map::kRootBits[face];
-  const int cellBits = rootBits + Map::kMaximumDepth;
-  const std::uint32_t cellMask = (1U << cellBits) - 1U;
-  const std::uint32_t column = std::bit_cast<std::uint32_t>(cellX) >> (kMantissaBits - cellBits) & cellMask;
-  const std::uint32_t row = std::bit_cast<std::uint32_t>(cellY) >> (kMantissaBits - cellBits) & cellMask;
-  const std::uint32_t root =
-      map.roots[map.faceOffset[face] + (row >> Map::kMaximumDepth << rootBits) + (column >> Map::kMaximumDepth)];
-  constexpr std::uint32_t kDepthMask = (1U << Map::kDepthBits) - 1U;
-  constexpr std::uint32_t kInRoot = (1U << Map::kMaximumDepth) - 1U;
+constexpr int kDepthMask = (1 << Map::kDepthBits) - 1;
+constexpr int kInRoot = (1 << Map::kMaximumDepth) - 1;
+
+/// Indices of the patches of the front face that pixels lie on.
+HWY_INLINE I patchesOn(const Map& map, const Places& places) {
+  const Int di;
+  constexpr int kRootBits = Map::kRootBits[Map::kFrontFace];
+  const I cell = hn::Add(hn::ShiftLeft<kRootBits>(hn::ShiftRight<Map::kMaximumDepth>(places.row)),
+                         hn::ShiftRight<Map::kMaximumDepth>(places.column));
+  const auto* const roots = reinterpret_cast<const std::int32_t*>(map.roots.data()) + map.faceOffset[Map::kFrontFace];
+  const I root = hn::GatherIndex(di, roots, cell);
+  const I depth = hn::And(root, hn::Set(di, kDepthMask));
+  const I coarser = hn::Sub(hn::Set(di, Map::kMaximumDepth), depth);
+  const auto within = [&](I cells) { return hn::Shr(hn::And(cells, hn::Set(di, kInRoot)), coarser); };
+  const I entry = hn::Add(hn::ShiftRight<Map::kDepthBits>(root),
+                          hn::Add(hn::Shl(within(places.row), depth), within(places.column)));
+  return hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.patchIndex.data()), entry);
+}
+
+/// The patch of one cell of any face.
+inline const Map::Patch& patchOf(const Map& map, std::size_t face, std::int32_t column, std::int32_t row) {
+  const auto cell =
+      static_cast<std::uint32_t>((row >> Map::kMaximumDepth << Map::kRootBits[face]) + (column >> Map::kMaximumDepth));
+  const std::uint32_t root = map.roots[map.faceOffset[face] + cell];
   const std::uint32_t depth = root & kDepthMask;
   const std::uint32_t coarser = Map::kMaximumDepth - depth;
-  return map.patches[map.patchIndex[(root >> Map::kDepthBits) + ((row & kInRoot) >> coarser << depth) +
-                                    ((column & kInRoot) >> coarser)]];
-}
-
-/// Lanes that lie on a patch.
-HWY_INLINE Mask on(const Map::Patch& patch, const Places& places) {
-  const Float d;
-  const Int di;
-  const auto differ = [&](V cells, float corner) { return hn::BitCast(di, hn::Xor(cells, hn::Set(d, corner))); };
-  const auto bits = hn::Or(differ(places.cellX, patch.corner[0]), differ(places.cellY, patch.corner[1]));
-  return hn::RebindMask(d, hn::Lt(bits, hn::Set(di, static_cast<std::int32_t>(patch.extent))));
+  const auto within = [&](std::int32_t at) { return static_cast<std::uint32_t>(at & kInRoot) >> coarser; };
+  return map.patches[map.patchIndex[(root >> Map::kDepthBits) + (within(row) << depth) + within(column)]];
 }
 
 struct Colours {
@@ -159,7 +168,7 @@ HWY_INLINE void applyPatch(const Map::Patch& patch, const Places& places, Mask m
 }
 
 /// Colours beyond the front face are rare (strong negatives): one lane at a time.
-HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, V largest, Mask far, Colours& result) {
+HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, Mask far, Colours& result) {
   const Float d;
   HWY_ALIGN std::array<std::array<float, kMostLanes>, 3> lanes;
   hn::Store(px, d, lanes[0].data());
@@ -172,11 +181,11 @@ HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, V largest, Mask far
     for (std::size_t k = 0; k < 2; ++k) {
       axis = std::abs(p[k]) > std::abs(p[axis]) ? k : axis;
     }
-    const Places places =
-        placesOn(hn::Set(d, p[(axis + 1) % 3]), hn::Set(d, p[(axis + 2) % 3]), hn::Set(d, std::abs(p[axis])), largest);
+    const std::size_t face = 2 * axis + (p[axis] > 0.0F ? 0 : 1);
+    const Places places = placesOn(hn::Set(d, p[(axis + 1) % 3]), hn::Set(d, p[(axis + 2) % 3]),
+                                   hn::Set(d, std::abs(p[axis])), Map::kRootBits[face]);
     const Mask own = hn::RebindMask(d, hn::Eq(hn::Iota(Int(), 0), hn::Set(Int(), static_cast<std::int32_t>(lane))));
-    applyPatch(patchOf(map, 2 * axis + (p[axis] > 0.0F ? 0 : 1), hn::GetLane(places.cellX), hn::GetLane(places.cellY)),
-               places, own, result);
+    applyPatch(patchOf(map, face, hn::GetLane(places.column), hn::GetLane(places.row)), places, own, result);
     far = hn::AndNot(own, far);
   }
 }
@@ -184,6 +193,7 @@ HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, V largest, Mask far
 /// A vector of pixels of which some are still to be looked up.
 struct Pending {
   Places places;
+  I patches;  ///< their patches
   Mask todo;  ///< those
   Colours result;
   V alpha;
@@ -227,12 +237,6 @@ HWY_INLINE bool begin(const Map& map, const float* source, float* destination, P
     store(result, a, destination);
     return false;
   }
-  // Quotients, rounded once, are the same at every exposure to the last bit, and so is all that follows from them: else
-  // a steep transform would show the rounding of the place.
-  const V largest = hn::Max(hn::Max(hn::Abs(r), hn::Abs(g)), hn::Max(hn::Abs(b), hn::Set(d, kSmallest)));
-  r = hn::Div(r, largest);
-  g = hn::Div(g, largest);
-  b = hn::Div(b, largest);
   const float* cube = map.cubeFromRgb.data();
   const V px = dot(cube, r, g, b);
   const V py = dot(cube + 3, r, g, b);
@@ -240,26 +244,25 @@ HWY_INLINE bool begin(const Map& map, const float* source, float* destination, P
   const Mask front = hn::Ge(pz, hn::Max(hn::Abs(px), hn::Abs(py)));
   const Mask far = hn::AndNot(front, rest);
   if (HWY_UNLIKELY(!hn::AllFalse(d, far))) {
-    applyFar(map, px, py, pz, largest, far, result);
+    applyFar(map, px, py, pz, far, result);
   }
-  pending = {placesOn(px, py, pz, largest), hn::And(rest, front), result, a, destination};
+  const Places places = placesOn(px, py, pz, Map::kRootBits[Map::kFrontFace]);
+  pending = {places, patchesOn(map, places), hn::And(rest, front), result, a, destination};
   return true;
 }
 
-/// Looks up what is left and stores the vector.
+/// Evaluates the patches that are left and stores the vector.
 HWY_INLINE void finish(const Map& map, const Pending& pending) {
   const Float d;
-  HWY_ALIGN std::array<float, kMostLanes> cellX;
-  HWY_ALIGN std::array<float, kMostLanes> cellY;
-  hn::Store(pending.places.cellX, d, cellX.data());
-  hn::Store(pending.places.cellY, d, cellY.data());
+  const Int di;
+  HWY_ALIGN std::array<std::int32_t, kMostLanes> patches;
+  hn::Store(pending.patches, di, patches.data());
   Colours result = pending.result;
   Mask todo = pending.todo;
   for (std::intptr_t lane = hn::FindFirstTrue(d, todo); lane >= 0; lane = hn::FindFirstTrue(d, todo)) {
-    const auto first = static_cast<std::size_t>(lane);
-    const Map::Patch& patch = patchOf(map, Map::kFrontFace, cellX[first], cellY[first]);
-    const Mask same = on(patch, pending.places);
-    applyPatch(patch, pending.places, hn::And(todo, same), result);
+    const std::int32_t patch = patches[static_cast<std::size_t>(lane)];
+    const Mask same = hn::RebindMask(d, hn::Eq(pending.patches, hn::Set(di, patch)));
+    applyPatch(map.patches[static_cast<std::size_t>(patch)], pending.places, hn::And(todo, same), result);
     todo = hn::AndNot(same, todo);
   }
   store(result, pending.alpha, pending.destination);

@@ -91,7 +91,7 @@ MeasuredScene::MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixX
     kernel.col(i) = ((1.0 + t) * (-t).exp()).matrix();
     kernel(i, i) += i < count ? noise[used[static_cast<std::size_t>(i)]] : 0.0;
   }
-  m_coefficients = Eigen::LLT<Eigen::MatrixXd>(kernel).solve(deviations).transpose();
+  m_coefficients = WeightedSums(Eigen::LLT<Eigen::MatrixXd>(kernel).solve(deviations).transpose());
 }
 
 MeasuredScene::Chromaticity MeasuredScene::chromaticityOf(const Eigen::Vector3d& response) const {
@@ -101,28 +101,33 @@ MeasuredScene::Chromaticity MeasuredScene::chromaticityOf(const Eigen::Vector3d&
 }
 
 BandVector MeasuredScene::deviation(const Eigen::Vector3d& response) const {
-  if (!isNearSamples(response)) {
-    return BandVector::Zero(m_coefficients.rows());
+  BandVector sum = BandVector::Zero(m_coefficients.bandCount());
+  if (isNearSamples(response)) {
+    const Chromaticity colour = chromaticityOf(response);
+    const Eigen::ArrayXd t = distances(m_places, colour.place);
+    const Eigen::ArrayXd kernel = colour.mean * (1.0 + t) * (-t).exp();
+    m_coefficients.addTo(kernel.data(), sum.data());
   }
-  const Chromaticity colour = chromaticityOf(response);
-  const Eigen::ArrayXd t = distances(m_places, colour.place);
-  return colour.mean * (m_coefficients * ((1.0 + t) * (-t).exp()).matrix());
+  return sum;
 }
 
 MeasuredScene::Local MeasuredScene::local(const Eigen::Vector3d& response) const {
-  const Index bandCount = m_coefficients.rows();
+  const Index bandCount = m_coefficients.bandCount();
   if (!isNearSamples(response)) {
     return {BandVector::Zero(bandCount), BandTriple::Zero(bandCount, 3)};
   }
   const Chromaticity colour = chromaticityOf(response);
   const Eigen::ArrayXd t = distances(m_places, colour.place);
   const Eigen::ArrayXd fade = (-t).exp();
-  Eigen::MatrixX3d kernel(t.size(), 3);
-  kernel.col(0) = ((1.0 + t) * fade).matrix();
+  Eigen::ArrayX3d kernel(t.size(), 3);
+  kernel.col(0) = (1.0 + t) * fade;
   for (Index k = 0; k < 2; ++k) {
-    kernel.col(1 + k) = (kInverseReach * kInverseReach * (m_places.col(k) - colour.place[k]) * fade).matrix();
+    kernel.col(1 + k) = kInverseReach * kInverseReach * (m_places.col(k) - colour.place[k]) * fade;
   }
-  const Eigen::MatrixX3d sums = m_coefficients * kernel;
+  BandTriple sums = BandTriple::Zero(bandCount, 3);
+  for (Index k = 0; k < 3; ++k) {
+    m_coefficients.addTo(kernel.col(k).data(), sums.col(k).data());
+  }
   Local local;
   local.value = colour.mean * sums.col(0);
   local.slope =

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "scenes/weighted_sums.h"
 #include "soft_bound/soft_bound_solver.h"
 
 namespace metamer::sip {
@@ -49,7 +50,7 @@ class MeasuredScene {
 
   Eigen::Matrix<double, 2, 3> m_differences;  ///< n q from a response
   Eigen::ArrayX2d m_places;                   ///< q of the samples
-  Eigen::MatrixXd m_coefficients;             ///< B x n
+  WeightedSums m_coefficients;                ///< of the samples' kernels
 };
 
 }  // namespace metamer::sip

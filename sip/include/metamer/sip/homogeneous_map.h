@@ -26,10 +26,10 @@ struct HomogeneousMap {
   static constexpr int kFaceCount = 6;
   static constexpr int kFrontFace = 4;  ///< +p[2]: every real colour; the others hold what is beyond all lights
   static constexpr int kDepthBits = 3;
-  static constexpr int kMaximumDepth = 6;
-  static constexpr std::array<int, kFaceCount> kRootBits = {3, 3, 3, 3, 5, 3};  ///< log2 of a side's root cells
+  static constexpr int kMaximumDepth = 7;
+  static constexpr std::array<int, kFaceCount> kRootBits = {2, 2, 2, 2, 4, 2};  ///< log2 of a side's root cells
   /// What lies beyond all lights is continuous and bounded there, and needs no more.
-  static constexpr std::array<int, kFaceCount> kDepthLimit = {2, 2, 2, 2, kMaximumDepth, 2};
+  static constexpr std::array<int, kFaceCount> kDepthLimit = {3, 3, 3, 3, kMaximumDepth, 3};
   /// Twelve terms, each red, green, blue, in units of a pixel whose largest |p| is 1. Powers of u (0 ... 3) with v^0,
   /// then with v^1; then (0, 1) with v^2 and with v^3: all that Adini's element has. (u, v), 0 ... 1 over the patch, is
   /// scale * (x, y) + offset, where (x, y), -0.5 ... 0.5, are half the face coordinates.
@@ -37,9 +37,6 @@ struct HomogeneousMap {
     std::array<float, 36> coefficients;
     float scale;
     std::array<float, 2> offset;
-    /// 1.5 + x and 1.5 + y, within [1, 2), have the bits of `corner` but for those below `extent`, a power of two.
-    std::array<float, 2> corner;
-    std::uint32_t extent;
   };
   static constexpr std::size_t kMostLinearNormals = 8;
 
