@@ -55,7 +55,19 @@ MeasuredScene::MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixX
   m_differences(1, last) = 1.0;
   m_differences.col(middle).setConstant(-1.0);
 
-  const Eigen::Matrix3Xd all = weights * reflectances;
+  const Index bandCount = weights.cols();
+  m_smooth = solver.unclamped();
+  m_nodes.resize(bandCount);
+  m_fractions.resize(bandCount);
+  Eigen::MatrixXd nodeWeights = Eigen::MatrixXd::Zero(3, kNodeCount);
+  for (Index b = 0; b < bandCount; ++b) {
+    const double position = static_cast<double>((kNodeCount - 1) * b) / static_cast<double>(bandCount - 1);
+    m_nodes[b] = std::min(static_cast<int>(position), kNodeCount - 2);
+    m_fractions[b] = position - m_nodes[b];
+    nodeWeights.col(m_nodes[b]) += (1.0 - m_fractions[b]) * weights.col(b);
+    nodeWeights.col(m_nodes[b] + 1) += m_fractions[b] * weights.col(b);
+  }
+  const Eigen::Matrix3Xd all = nodeWeights * reflectances;
   std::vector<Index> used;
   for (Index i = 0; i < all.cols(); ++i) {
     if (all.col(i).mean() >= kDarkest) {
@@ -80,18 +92,19 @@ MeasuredScene::MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixX
   m_places.topRows(count) = (whitening * places).transpose().array();
   m_places.row(count).setZero();
 
-  Eigen::MatrixXd deviations = Eigen::MatrixXd::Zero(count + 1, weights.cols());
-  deviations.topRows(count) =
-      ((reflectances(Eigen::all, used) - solver.unclamped() * responses).array().rowwise() / means.array())
-          .matrix()
-          .transpose();
+  // Spectra for a mean of one, and their responses: the solver's bands and smooth spectra come in when they are summed.
+  // The perfect reflector deviates by nothing, and so may stand as nothing.
+  Eigen::MatrixXd targets = Eigen::MatrixXd::Zero(count + 1, kNodeCount + 3);
+  targets.topLeftCorner(count, kNodeCount) =
+      (reflectances(Eigen::all, used).array().rowwise() / means.array()).matrix().transpose();
+  targets.topRightCorner(count, 3) = (responses.array().rowwise() / means.array()).matrix().transpose();
   Eigen::MatrixXd kernel(count + 1, count + 1);
   for (Index i = 0; i <= count; ++i) {
     const Eigen::ArrayXd t = distances(m_places, m_places.row(i).transpose());
     kernel.col(i) = ((1.0 + t) * (-t).exp()).matrix();
     kernel(i, i) += i < count ? noise[used[static_cast<std::size_t>(i)]] : 0.0;
   }
-  m_coefficients = WeightedSums(Eigen::LLT<Eigen::MatrixXd>(kernel).solve(deviations).transpose());
+  m_coefficients = WeightedSums(Eigen::LLT<Eigen::MatrixXd>(kernel).solve(targets).transpose());
 }
 
 MeasuredScene::Chromaticity MeasuredScene::chromaticityOf(const Eigen::Vector3d& response) const {
@@ -100,39 +113,45 @@ MeasuredScene::Chromaticity MeasuredScene::chromaticityOf(const Eigen::Vector3d&
   return {mean, place, m_differences / mean - place * Eigen::RowVector3d::Constant(1.0 / (3.0 * mean))};
 }
 
-BandVector MeasuredScene::deviation(const Eigen::Vector3d& response) const {
-  BandVector sum = BandVector::Zero(m_coefficients.bandCount());
-  if (isNearSamples(response)) {
-    const Chromaticity colour = chromaticityOf(response);
-    const Eigen::ArrayXd t = distances(m_places, colour.place);
-    const Eigen::ArrayXd kernel = colour.mean * (1.0 + t) * (-t).exp();
-    m_coefficients.addTo(kernel.data(), sum.data());
+BandVector MeasuredScene::atBands(const Eigen::VectorXd& sums) const {
+  BandVector spectrum = -(m_smooth * sums.tail<3>());
+  for (Index b = 0; b < spectrum.size(); ++b) {
+    const double* node = sums.data() + m_nodes[b];
+    spectrum[b] += (1.0 - m_fractions[b]) * node[0] + m_fractions[b] * node[1];
   }
-  return sum;
+  return spectrum;
+}
+
+BandVector MeasuredScene::deviation(const Eigen::Vector3d& response) const {
+  if (!isNearSamples(response)) {
+    return BandVector::Zero(m_nodes.size());
+  }
+  const Chromaticity colour = chromaticityOf(response);
+  const Eigen::ArrayXd t = distances(m_places, colour.place);
+  return atBands(m_coefficients.of(colour.mean * (1.0 + t) * (-t).exp()));
 }
 
 MeasuredScene::Local MeasuredScene::local(const Eigen::Vector3d& response) const {
-  const Index bandCount = m_coefficients.bandCount();
+  const Index bandCount = m_nodes.size();
   if (!isNearSamples(response)) {
     return {BandVector::Zero(bandCount), BandTriple::Zero(bandCount, 3)};
   }
   const Chromaticity colour = chromaticityOf(response);
   const Eigen::ArrayXd t = distances(m_places, colour.place);
   const Eigen::ArrayXd fade = (-t).exp();
-  Eigen::ArrayX3d kernel(t.size(), 3);
+  // The kernel, and its slopes by the chromaticity.
+  Eigen::ArrayXXd kernel(t.size(), 3);
   kernel.col(0) = (1.0 + t) * fade;
   for (Index k = 0; k < 2; ++k) {
     kernel.col(1 + k) = kInverseReach * kInverseReach * (m_places.col(k) - colour.place[k]) * fade;
   }
-  BandTriple sums = BandTriple::Zero(bandCount, 3);
+  const Eigen::MatrixXd sums = m_coefficients.of(kernel);
+  BandTriple spectra(bandCount, 3);
   for (Index k = 0; k < 3; ++k) {
-    m_coefficients.addTo(kernel.col(k).data(), sums.col(k).data());
+    spectra.col(k) = atBands(sums.col(k));
   }
-  Local local;
-  local.value = colour.mean * sums.col(0);
-  local.slope =
-      sums.col(0) * Eigen::RowVector3d::Constant(1.0 / 3.0) + colour.mean * (sums.rightCols<2>() * colour.slope);
-  return local;
+  return {colour.mean * spectra.col(0), spectra.col(0) * Eigen::RowVector3d::Constant(1.0 / 3.0) +
+                                            colour.mean * (spectra.rightCols<2>() * colour.slope)};
 }
 
 }  // namespace metamer::sip

@@ -24,9 +24,12 @@ class MeasuredScene {
  public:
   /// In standard deviations of the samples' chromaticities.
   static constexpr double kReach = 2.0;
+  /// Samples are taken as piecewise linear between so many nodes, 5 nm apart, whatever the solver's bands: as finely as
+  /// they were measured, and as dear for any number of bands.
+  static constexpr int kNodeCount = 81;
 
-  /// @param solver        exact (not relaxed); gives weights and smooth spectra. Copied from, not kept.
-  /// @param reflectances  B x n at the band centres
+  /// @param solver        gives weights and smooth spectra. Copied from, not kept.
+  /// @param reflectances  kNodeCount x n
   /// @param noise         n variances, 0 or more, over the kernel's 1: how far a sample is smoothed away between its
   ///                      neighbours. Samples that are dark under this light (mean response below 1e-4) are left out.
   MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixXd& reflectances, const Eigen::VectorXd& noise);
@@ -47,10 +50,15 @@ class MeasuredScene {
     Eigen::Matrix<double, 2, 3> slope;  ///< dq / dresponse
   };
   Chromaticity chromaticityOf(const Eigen::Vector3d& response) const;
+  /// The samples' spectra less their smooth ones, at the bands, from sums of coefficients.
+  BandVector atBands(const Eigen::VectorXd& sums) const;
 
   Eigen::Matrix<double, 2, 3> m_differences;  ///< n q from a response
   Eigen::ArrayX2d m_places;                   ///< q of the samples
-  WeightedSums m_coefficients;                ///< of the samples' kernels
+  WeightedSums m_coefficients;                ///< of the samples' kernels: nodes, then the response
+  Eigen::VectorXi m_nodes;                    ///< of a band: it lies between this node and the next,
+  Eigen::VectorXd m_fractions;                ///< so far from the first
+  BandTriple m_smooth;                        ///< smooth spectrum from a response
 };
 
 }  // namespace metamer::sip

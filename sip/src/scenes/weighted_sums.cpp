@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 HWY_BEFORE_NAMESPACE();
 namespace metamer::sip {
@@ -17,34 +18,48 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kBlock = WeightedSums::kBlock;
-/// A wider vector than a block's quarter would leave no two sums to be taken side by side.
+constexpr std::size_t kBlock = static_cast<std::size_t>(WeightedSums::kBlock);
 using Double = hn::CappedTag<double, kBlock / 4>;
 using V = hn::VFromD<Double>;
 
-/// sum[0 ... kBlock - 1] of one block, added to `sum`.
-void addBlock(const double* block, const double* weights, std::size_t count, double* sum) {
+/// Sums of one block's bands for each set of weights, kBlock numbers a set.
+/// @tparam kTogether  vectors of bands at a time, for each set: their sums do not wait for one another
+/// @param weights     count numbers a set
+template <std::size_t kSets, std::size_t kTogether>
+void sumBlock(const double* block, const double* weights, std::size_t count, double* sums) {
   const Double d;
   const std::size_t lanes = hn::Lanes(d);
-  // Four vectors at a time: their sums do not wait for one another.
-  for (std::size_t band = 0; band < kBlock; band += 4 * lanes) {
-    V first = hn::LoadU(d, sum + band);
-    V second = hn::LoadU(d, sum + band + lanes);
-    V third = hn::LoadU(d, sum + band + 2 * lanes);
-    V fourth = hn::LoadU(d, sum + band + 3 * lanes);
+  for (std::size_t band = 0; band < kBlock; band += kTogether * lanes) {
+    std::array<std::array<V, kTogether>, kSets> sum;
+    for (auto& ofSet : sum) {
+      ofSet.fill(hn::Zero(d));
+    }
     const double* row = block + band;
     for (std::size_t i = 0; i < count; ++i, row += kBlock) {
-      const V weight = hn::Set(d, weights[i]);
-      first = hn::Add(first, hn::Mul(weight, hn::LoadU(d, row)));
-      second = hn::Add(second, hn::Mul(weight, hn::LoadU(d, row + lanes)));
-      third = hn::Add(third, hn::Mul(weight, hn::LoadU(d, row + 2 * lanes)));
-      fourth = hn::Add(fourth, hn::Mul(weight, hn::LoadU(d, row + 3 * lanes)));
+      std::array<V, kSets> weight;
+      for (std::size_t set = 0; set < kSets; ++set) {
+        weight[set] = hn::Set(d, weights[set * count + i]);
+      }
+      for (std::size_t k = 0; k < kTogether; ++k) {
+        const V bands = hn::LoadU(d, row + k * lanes);
+        for (std::size_t set = 0; set < kSets; ++set) {
+          sum[set][k] = hn::Add(sum[set][k], hn::Mul(weight[set], bands));
+        }
+      }
     }
-    hn::StoreU(first, d, sum + band);
-    hn::StoreU(second, d, sum + band + lanes);
-    hn::StoreU(third, d, sum + band + 2 * lanes);
-    hn::StoreU(fourth, d, sum + band + 3 * lanes);
+    for (std::size_t set = 0; set < kSets; ++set) {
+      for (std::size_t k = 0; k < kTogether; ++k) {
+        hn::StoreU(sum[set][k], d, sums + set * kBlock + band + k * lanes);
+      }
+    }
   }
+}
+
+void sumBlockOnce(const double* block, const double* weights, std::size_t count, double* sums) {
+  sumBlock<1, 4>(block, weights, count, sums);
+}
+void sumBlockThrice(const double* block, const double* weights, std::size_t count, double* sums) {
+  sumBlock<3, 2>(block, weights, count, sums);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -54,7 +69,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace metamer::sip {
 
-HWY_EXPORT(addBlock);
+HWY_EXPORT(sumBlockOnce);
+HWY_EXPORT(sumBlockThrice);
 
 WeightedSums::WeightedSums(const Eigen::MatrixXd& spectra) : m_bandCount(spectra.rows()), m_count(spectra.cols()) {
   for (Eigen::Index first = 0; first < m_bandCount; first += kBlock) {
@@ -67,15 +83,22 @@ WeightedSums::WeightedSums(const Eigen::MatrixXd& spectra) : m_bandCount(spectra
   }
 }
 
-void WeightedSums::addTo(const double* weights, double* sum) const {
+Eigen::MatrixXd WeightedSums::of(const Eigen::ArrayXXd& weights) const {
+  assert(weights.rows() == m_count && (weights.cols() == 1 || weights.cols() == 3));
+  const auto count = static_cast<std::size_t>(m_count);
+  Eigen::MatrixXd sums(m_bandCount, weights.cols());
+  Eigen::Matrix<double, kBlock, Eigen::Dynamic, 0, kBlock, 3> part(kBlock, weights.cols());
   const double* block = m_blocks.data();
   for (Eigen::Index first = 0; first < m_bandCount; first += kBlock, block += kBlock * m_count) {
-    const auto bands = static_cast<std::size_t>(std::min(kBlock, m_bandCount - first));
-    std::array<double, static_cast<std::size_t>(kBlock)> part{};
-    std::copy_n(sum + first, bands, part.begin());
-    HWY_DYNAMIC_DISPATCH(addBlock)(block, weights, static_cast<std::size_t>(m_count), part.data());
-    std::copy_n(part.begin(), bands, sum + first);
+    const Eigen::Index bands = std::min(kBlock, m_bandCount - first);
+    if (weights.cols() == 1) {
+      HWY_DYNAMIC_DISPATCH(sumBlockOnce)(block, weights.data(), count, part.data());
+    } else {
+      HWY_DYNAMIC_DISPATCH(sumBlockThrice)(block, weights.data(), count, part.data());
+    }
+    sums.middleRows(first, bands) = part.topRows(bands);
   }
+  return sums;
 }
 
 }  // namespace metamer::sip

@@ -14,10 +14,9 @@ class WeightedSums {
   /// @param spectra  bands x n
   explicit WeightedSums(const Eigen::MatrixXd& spectra);
 
-  /// Adds `spectra * weights` to `sum`.
-  /// @param weights  n numbers
-  /// @param sum      as many numbers as there are bands
-  void addTo(const double* weights, double* sum) const;
+  /// `spectra * weights`, bands x sets.
+  /// @param weights  n x sets, one or three sets
+  Eigen::MatrixXd of(const Eigen::ArrayXXd& weights) const;
 
   Eigen::Index bandCount() const { return m_bandCount; }
   Eigen::Index count() const { return m_count; }

@@ -59,13 +59,12 @@ Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
   if (!(scene.strength >= 0.0 && scene.strength <= 1.0)) {
     throw InputError("recipe", "scene.strength", std::to_string(scene.strength), "give a number from 0 to 1");
   }
-  const int bandCount = solver.bandCount();
-  const Eigen::MatrixXd samples = onBands(scene.samples, bandCount);
   if (scene.kind == ReferenceScene::Kind::Dataset) {
-    return DatasetScene(solver, samples);
+    return DatasetScene(solver, onBands(scene.samples, solver.bandCount()));
   }
-  const Eigen::MatrixXd skins = onBands(scene.skins, bandCount);
-  Eigen::MatrixXd all(bandCount, samples.cols() + skins.cols());
+  const Eigen::MatrixXd samples = onBands(scene.samples, MeasuredScene::kNodeCount);
+  const Eigen::MatrixXd skins = onBands(scene.skins, MeasuredScene::kNodeCount);
+  Eigen::MatrixXd all(MeasuredScene::kNodeCount, samples.cols() + skins.cols());
   all << samples, skins;
   const double strength = scene.kind == ReferenceScene::Kind::Skin ? scene.strength : 0.0;
   Eigen::VectorXd noise(all.cols());
