@@ -11,7 +11,7 @@
 #include <cstring>
 #include <memory>
 
-#include "map/instruction_sets.h"
+#include "vector/instruction_sets.h"
 #include "metamer/sip/homogeneous_map.h"
 #include "metamer/sip/recipe.h"
 #include "metamer/sip/spectral_transform.h"

@@ -22,7 +22,7 @@
 #include <cmath>
 #include <limits>
 
-#include "map/instruction_sets.h"
+#include "vector/choose_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace metamer::sip {
@@ -315,25 +315,6 @@ namespace {
 
 using ApplyMap = void(const HomogeneousMap&, const float*, float*, std::size_t);
 
-/// The kernel for the best instruction set of this machine, of those that Highway compiled it for.
-ApplyMap* chosenKernel() {
-  struct Compiled {
-    std::int64_t set;
-    ApplyMap* kernel;
-  };
-  constexpr std::array compiled{
-      Compiled{HWY_AVX3, HWY_CHOOSE_AVX3(applyMap)}, Compiled{HWY_AVX2, HWY_CHOOSE_AVX2(applyMap)},
-      Compiled{HWY_SSE4, HWY_CHOOSE_SSE4(applyMap)}, Compiled{HWY_SSSE3, HWY_CHOOSE_SSSE3(applyMap)},
-      Compiled{HWY_NEON, HWY_CHOOSE_NEON(applyMap)}};
-  const std::int64_t sets = instructionSets();
-  for (const Compiled& one : compiled) {
-    if (one.kernel != nullptr && (sets & one.set) != 0) {
-      return one.kernel;
-    }
-  }
-  return HWY_CHOOSE_FALLBACK(applyMap);
-}
-
 }  // namespace
 
 void HomogeneousMap::apply(std::span<const float> source, std::span<float> destination) const {
@@ -344,7 +325,7 @@ void HomogeneousMap::apply(std::span<const float> source, std::span<float> desti
     }
     return;
   }
-  chosenKernel()(*this, source.data(), destination.data(), source.size() / 4);
+  METAMER_CHOOSE_KERNEL(ApplyMap, applyMap)(*this, source.data(), destination.data(), source.size() / 4);
 }
 
 }  // namespace metamer::sip

@@ -20,6 +20,8 @@ constexpr double kDarkest = 1e-4;
 /// Least variance of the samples' chromaticities in any direction, so that a lamp that hardly tells two channels apart
 /// does not stretch its noise into a scale.
 constexpr double kLeastVariance = 1e-4;
+/// A sample with this mean response counts as twice as noisy: what is measured of the dark is mostly error.
+constexpr double kDarkNoise = 0.05;
 /// A colour whose mean is this small a part of its largest channel lies so far from all samples that the kernel is
 /// zero.
 constexpr double kLeastMean = 1e-4;
@@ -56,7 +58,6 @@ MeasuredScene::MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixX
   m_differences.col(middle).setConstant(-1.0);
 
   const Index bandCount = weights.cols();
-  m_smooth = solver.unclamped();
   m_nodes.resize(bandCount);
   m_fractions.resize(bandCount);
   Eigen::MatrixXd nodeWeights = Eigen::MatrixXd::Zero(3, kNodeCount);
@@ -66,6 +67,20 @@ MeasuredScene::MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixX
     m_fractions[b] = position - m_nodes[b];
     nodeWeights.col(m_nodes[b]) += (1.0 - m_fractions[b]) * weights.col(b);
     nodeWeights.col(m_nodes[b] + 1) += m_fractions[b] * weights.col(b);
+  }
+  // Samples are kept less smooth spectra at the nodes, so that sums lose no digits; what these differ by from the
+  // smooth spectra at the bands is made up for.
+  Eigen::MatrixX3d nodeSmooth(kNodeCount, 3);
+  for (Index j = 0; j < kNodeCount; ++j) {
+    const double position = static_cast<double>((bandCount - 1) * j) / (kNodeCount - 1);
+    const Index band = std::min(static_cast<Index>(position), bandCount - 2);
+    const double fraction = position - static_cast<double>(band);
+    nodeSmooth.row(j) = (1.0 - fraction) * solver.unclamped().row(band) + fraction * solver.unclamped().row(band + 1);
+  }
+  m_smooth.resize(bandCount, 3);
+  for (Index b = 0; b < bandCount; ++b) {
+    m_smooth.row(b) = solver.unclamped().row(b) - (1.0 - m_fractions[b]) * nodeSmooth.row(m_nodes[b]) -
+                      m_fractions[b] * nodeSmooth.row(m_nodes[b] + 1);
   }
   const Eigen::Matrix3Xd all = nodeWeights * reflectances;
   std::vector<Index> used;
@@ -96,13 +111,18 @@ MeasuredScene::MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixX
   // The perfect reflector deviates by nothing, and so may stand as nothing.
   Eigen::MatrixXd targets = Eigen::MatrixXd::Zero(count + 1, kNodeCount + 3);
   targets.topLeftCorner(count, kNodeCount) =
-      (reflectances(Eigen::all, used).array().rowwise() / means.array()).matrix().transpose();
+      ((reflectances(Eigen::all, used) - nodeSmooth * responses).array().rowwise() / means.array())
+          .matrix()
+          .transpose();
   targets.topRightCorner(count, 3) = (responses.array().rowwise() / means.array()).matrix().transpose();
   Eigen::MatrixXd kernel(count + 1, count + 1);
   for (Index i = 0; i <= count; ++i) {
     const Eigen::ArrayXd t = distances(m_places, m_places.row(i).transpose());
     kernel.col(i) = ((1.0 + t) * (-t).exp()).matrix();
-    kernel(i, i) += i < count ? noise[used[static_cast<std::size_t>(i)]] : 0.0;
+    if (i < count) {
+      const double dark = kDarkNoise / means[i];
+      kernel(i, i) += noise[used[static_cast<std::size_t>(i)]] * (1.0 + dark * dark);
+    }
   }
   m_coefficients = WeightedSums(Eigen::LLT<Eigen::MatrixXd>(kernel).solve(targets).transpose());
 }

@@ -58,7 +58,7 @@ class MeasuredScene {
   WeightedSums m_coefficients;                ///< of the samples' kernels: nodes, then the response
   Eigen::VectorXi m_nodes;                    ///< of a band: it lies between this node and the next,
   Eigen::VectorXd m_fractions;                ///< so far from the first
-  BandTriple m_smooth;                        ///< smooth spectrum from a response
+  BandTriple m_smooth;                        ///< smooth spectrum from a response, less what its nodes give
 };
 
 }  // namespace metamer::sip

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once per instruction set and chosen at run time (Highway).
+// Compiled once per instruction set by Highway and chosen at run time.
 #include "scenes/weighted_sums.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+
+#include "vector/choose_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace metamer::sip {
@@ -69,8 +71,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace metamer::sip {
 
-HWY_EXPORT(sumBlockOnce);
-HWY_EXPORT(sumBlockThrice);
+namespace {
+
+using SumBlock = void(const double*, const double*, std::size_t, double*);
+
+}  // namespace
 
 WeightedSums::WeightedSums(const Eigen::MatrixXd& spectra) : m_bandCount(spectra.rows()), m_count(spectra.cols()) {
   for (Eigen::Index first = 0; first < m_bandCount; first += kBlock) {
@@ -86,16 +91,14 @@ WeightedSums::WeightedSums(const Eigen::MatrixXd& spectra) : m_bandCount(spectra
 Eigen::MatrixXd WeightedSums::of(const Eigen::ArrayXXd& weights) const {
   assert(weights.rows() == m_count && (weights.cols() == 1 || weights.cols() == 3));
   const auto count = static_cast<std::size_t>(m_count);
+  SumBlock* const sumBlock = weights.cols() == 1 ? METAMER_CHOOSE_KERNEL(SumBlock, sumBlockOnce)
+                                                 : METAMER_CHOOSE_KERNEL(SumBlock, sumBlockThrice);
   Eigen::MatrixXd sums(m_bandCount, weights.cols());
   Eigen::Matrix<double, kBlock, Eigen::Dynamic, 0, kBlock, 3> part(kBlock, weights.cols());
   const double* block = m_blocks.data();
   for (Eigen::Index first = 0; first < m_bandCount; first += kBlock, block += kBlock * m_count) {
     const Eigen::Index bands = std::min(kBlock, m_bandCount - first);
-    if (weights.cols() == 1) {
-      HWY_DYNAMIC_DISPATCH(sumBlockOnce)(block, weights.data(), count, part.data());
-    } else {
-      HWY_DYNAMIC_DISPATCH(sumBlockThrice)(block, weights.data(), count, part.data());
-    }
+    sumBlock(block, weights.data(), count, part.data());
     sums.middleRows(first, bands) = part.topRows(bands);
   }
   return sums;

@@ -67,6 +67,16 @@ Share shareOf(const Graded& size, const Graded& most) {
   return {s - 0.25 * s * s, slope * size.slope, -slope * s * most.slope};
 }
 
+/// What channel k may lose of itself; all of it where it gains.
+Share shareOfLoss(Index k, const Vector3d& colour, const Vector3d& difference) {
+  if (difference[k] >= 0.0) {
+    return {};
+  }
+  const Graded own = colour[k] > 0.0 ? Graded{Limiter::kMostLoss * colour[k], Limiter::kMostLoss * RowVector3d::Unit(k)}
+                                     : Graded{0.0, RowVector3d::Zero()};
+  return shareOf(own, {-difference[k], -RowVector3d::Unit(k)});
+}
+
 /// The value that this share of all does not exceed, linear between ranks.
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) {
@@ -103,7 +113,10 @@ Limiter::Reach Limiter::reachFor(const std::vector<Vector3d>& colours, const std
 }
 
 bool Limiter::keeps(const Vector3d& colour, const Vector3d& difference) const {
-  return taken(difference, m_reach).value <= 0.5 * luminanceSize(colour).value;
+  const auto losesLittle = [&](Index k) {
+    return difference[k] >= 0.0 || -difference[k] <= 0.5 * kMostLoss * std::max(colour[k], 0.0);
+  };
+  return taken(difference, m_reach).value <= 0.5 * luminanceSize(colour).value && losesLittle(0) && losesLittle(2);
 }
 
 Limiter::Limited Limiter::limited(const Vector3d& colour, const Vector3d& difference) const {
@@ -112,7 +125,11 @@ Limiter::Limited Limiter::limited(const Vector3d& colour, const Vector3d& differ
   const Share sides = shareOf(sideSize(colour), most);
   Limited limited{colour, Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Zero()};
   for (Index k = 0; k < 3; ++k) {
-    const Share& own = k == 1 ? luminance : sides;
+    Share own = k == 1 ? luminance : sides;
+    if (k != 1) {
+      const Share loss = shareOfLoss(k, colour, difference);
+      own = loss.value < own.value ? loss : own;
+    }
     limited.value[k] += own.value * difference[k];
     limited.byColour.row(k) += difference[k] * own.byColour;
     limited.byDifference.row(k) = difference[k] * own.byDifference;

@@ -23,6 +23,8 @@ class Limiter {
   };
   /// Reaches are raised at most to these.
   static constexpr Reach kMostReach = {3.5, 0.95, 12.0};
+  /// Of X and Z, what may be lost.
+  static constexpr double kMostLoss = 0.9;
 
   explicit Limiter(const Reach& reach) : m_reach(reach) {}
 

@@ -307,6 +307,7 @@ std::vector<Eigen::Vector3d> SpectralTransform::linearConeCorners() const {
   for (const Eigen::Index component : {0, 2}) {
     keepWithin(component, reach.aside, 1.0);
     keepWithin(component, reach.aside, -1.0);
+    normals.emplace_back((0.5 * Limiter::kMostLoss * relative.row(component) + difference.row(component)).transpose());
   }
   for (const Eigen::Vector3d& normal : normals) {
     corners = clipRays(corners, normal);
