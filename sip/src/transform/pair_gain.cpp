@@ -16,11 +16,14 @@ namespace metamer::sip {
 namespace {
 
 constexpr double kPercentile = 0.95;
-/// Relaxations between which the largest that will do is sought: from plain adaptation to an exact match, as far as
-/// double precision tells.
+/// Relaxations between which the largest that will do is sought: from plain adaptation to an exact match. Where a light
+/// leaves a direction of response without any spectrum, what it asks for there is multiplied by the relaxation before
+/// it cancels: a million times double precision's rounding.
 constexpr double kLeastLogRelaxation = -12.0;
-constexpr double kMostLogRelaxation = 40.0;
+constexpr double kMostLogRelaxation = 20.0;
 constexpr int kHalvings = 24;
+/// A smooth spectrum that misses its response by more has none to meet it with.
+constexpr double kMostMissed = 1e-6;
 /// A surface this dark under the input light says nothing.
 constexpr double kDarkest = 1e-4;
 
@@ -28,9 +31,12 @@ constexpr double kDarkest = 1e-4;
 
 double gainOf(const PairWeights& pair, const Eigen::MatrixXd& surfaces, double relaxation) {
   const SoftBoundSolver solver(pair.input, relaxation);
+  const Eigen::Matrix3d missed = Eigen::Matrix3d::Identity() - pair.input * solver.unclamped();
   Eigen::Matrix3d matrix = pair.relativeFromSpectrum * solver.unclamped();
   if (relaxation > 0.0) {
-    matrix += pair.relativeFromResponse * (Eigen::Matrix3d::Identity() - pair.input * solver.unclamped());
+    matrix += pair.relativeFromResponse * missed;
+  } else if (!(missed.cwiseAbs().maxCoeff() < kMostMissed)) {
+    return std::numeric_limits<double>::infinity();
   }
   const Eigen::Matrix3d responseFromRelative = pair.relativeFromResponse.inverse();
   const Eigen::Matrix3d relativeFromRelative = matrix * responseFromRelative;

@@ -28,7 +28,8 @@ inline constexpr double kLargestGain = 3.0;
 /// @return SoftBoundSolver's relaxation for kDecisionBandCount bands; 0: exact
 double relaxationOf(const PairWeights& pair, const Eigen::MatrixXd& surfaces);
 
-/// 95th percentile of the gain of the linear transform at the surfaces' colours, for a relaxation as above.
+/// 95th percentile of the gain of the linear transform at the surfaces' colours, for a relaxation as above. Infinite
+/// for relaxation 0 where the light does not tell three channels apart.
 double gainOf(const PairWeights& pair, const Eigen::MatrixXd& surfaces, double relaxation);
 
 }  // namespace metamer::sip
