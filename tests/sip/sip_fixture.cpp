@@ -5,6 +5,7 @@
 #include <random>
 
 #include "metamer/sip/band_weights.h"
+#include "metamer/sip/recipe.h"
 
 namespace metamer::sip {
 
@@ -26,6 +27,15 @@ TransformSpec specOf(const std::string& inputLight, const std::string& outputLig
           {},
           {},
           eye};
+}
+
+TransformSpec naturalSpecOf(const std::string& inputLight, const std::string& outputLight) {
+  static const TransformSpec base =
+      resolve(parseRecipe("metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: A}\n", "fixture"), testLibrary());
+  TransformSpec spec = base;
+  spec.input.illuminant = testLibrary().illuminant(inputLight);
+  spec.output.illuminant = testLibrary().illuminant(outputLight);
+  return spec;
 }
 
 std::vector<spectral::Spectrum> chart() {

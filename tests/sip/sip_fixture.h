@@ -22,6 +22,9 @@ const std::vector<std::pair<std::string, std::string>>& lightPairs();
 /// ACEScg, both observers CIE 1931 2, adaptation 0, smooth scene.
 TransformSpec specOf(const std::string& inputLight, const std::string& outputLight);
 
+/// The same as a recipe without a scene has it: scene natural, all measured surfaces for training.
+TransformSpec naturalSpecOf(const std::string& inputLight, const std::string& outputLight);
+
 /// The 24 patches that the error protocol uses.
 std::vector<spectral::Spectrum> chart();
 

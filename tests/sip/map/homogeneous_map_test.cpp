@@ -264,9 +264,9 @@ TEST(HomogeneousMapTest, HardPixelsAreFiniteAndCloseToTheTransform) {
         const Eigen::Map<const Eigen::Vector3f> given(pixels.data() + i);
         ASSERT_TRUE(result.allFinite()) << inputLight << " -> " << outputLight << ": " << given.transpose();
         const Eigen::Vector3d exact = transform.apply(Eigen::Vector3d(given.cast<double>()));
-        // Beyond what reflectances can make the tolerance is tenfold, and relative to a dim result; denormals keep
-        // fewer digits than that.
-        EXPECT_LE((result.cast<double>() - exact).norm(), 0.1 * exact.norm() + 1e-37)
+        // Beyond all lights the patches are coarse: a part of the pixel's own size, of which a dim result may be less.
+        // Denormals keep fewer digits than that.
+        EXPECT_LE((result.cast<double>() - exact).norm(), 0.05 * given.cast<double>().norm() + 1e-37)
             << inputLight << " -> " << outputLight << ": " << given.transpose();
         if (given.isZero(0.0F)) {
           EXPECT_TRUE(result.isZero(0.0F));
@@ -277,10 +277,9 @@ TEST(HomogeneousMapTest, HardPixelsAreFiniteAndCloseToTheTransform) {
 }
 
 TEST(HomogeneousMapTest, SeamsStayWithinTheTolerance) {
-  // Chromaticities along lines between saturated colours that reflectances can make, in steps of 1e-5. Patches of one
+  // Chromaticities along lines between saturated colours, in steps of 1e-5. Patches of one
   // size share their edges; where sizes differ, either side may be off by the tolerance: 0.09 CIEDE2000 at Y = 0.18 is
   // 0.4 % of the luminance, so two sides differ by less than 1 % of the pixel.
-  const SpectralTransform transform(specOf("D65", "HP1"));
   const std::vector<Eigen::Vector3d> ends{{1, 0.1, 0.1}, {0.1, 1, 0.1}, {0.1, 0.1, 1}, {1, 0.1, 0.1}, {1, 1, 0.05}};
   double largest = 0.0;
   for (std::size_t leg = 0; leg + 1 < ends.size(); ++leg) {
@@ -289,7 +288,6 @@ TEST(HomogeneousMapTest, SeamsStayWithinTheTolerance) {
     for (int i = 0; i <= kSteps; ++i) {
       const double share = static_cast<double>(i) / kSteps;
       const Eigen::Vector3d colour = (1.0 - share) * ends[leg] + share * ends[leg + 1];
-      ASSERT_TRUE(transform.isFeasible(colour)) << colour.transpose();
       for (int k = 0; k < 3; ++k) {
         pixels.push_back(static_cast<float>(colour[k]));
       }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <clocale>
+#include <cmath>
 #include <fstream>
 
 #include "sip/sip_fixture.h"
@@ -56,10 +57,8 @@ output:
   observer: "Nikon D5100"
   adaptation: .25
 scene:
-  kind: prior
-  set: skin
+  kind: skin
   strength: 5e-1
-  radius: 0.02
 cat: cat16
 keep_exposure: true
 )");
@@ -78,10 +77,8 @@ keep_exposure: true
   EXPECT_EQ(recipe.output.filters[0].density, 0.5);
   EXPECT_EQ(recipe.output.observer, "Nikon D5100");
   EXPECT_EQ(recipe.adaptation, 0.25);
-  EXPECT_EQ(recipe.scene.kind, ReferenceScene::Kind::Prior);
-  EXPECT_EQ(recipe.scene.set, "skin");
+  EXPECT_EQ(recipe.scene.kind, ReferenceScene::Kind::Skin);
   EXPECT_EQ(recipe.scene.strength, 0.5);
-  EXPECT_EQ(recipe.scene.radius, 0.02);
   EXPECT_EQ(recipe.cat, spectral::ChromaticAdaptation::Cat16);
   EXPECT_TRUE(recipe.keepExposure);
 }
@@ -94,7 +91,7 @@ TEST(RecipeTest, Defaults) {
             "space: ACEScg\n"
             "input: {illuminant: D65, filters: [], observer: \"CIE 1931 2\"}\n"
             "output: {illuminant: HP1, filters: [], observer: \"CIE 1931 2\", adaptation: 0}\n"
-            "scene: {kind: smooth}\n"
+            "scene: {kind: natural}\n"
             "cat: vonkries\n"
             "keep_exposure: false\n");
 }
@@ -106,7 +103,7 @@ TEST(RecipeTest, YamlReadsBackAsTheSameRecipe) {
   recipe.input = {"- 3200 K", {{"Lee 201", 1.0 / 3.0}, {"C:\\gels\\a b.csv", 0.0}, {"a/b", 1e-300}}, " true "};
   recipe.output = {"&anchor", {{"*alias", 100.0}}, "%directive @ `"};
   recipe.adaptation = 0.1;
-  recipe.scene = {ReferenceScene::Kind::Prior, "!tag", 0.7, 1.0};
+  recipe.scene = {ReferenceScene::Kind::Dataset, "!tag", 1.0};
   recipe.cat = spectral::ChromaticAdaptation::Cat02;
   recipe.keepExposure = true;
   const Recipe back = parse(toYaml(recipe));
@@ -125,10 +122,15 @@ TEST(RecipeTest, YamlReadsBackAsTheSameRecipe) {
   EXPECT_EQ(back.scene.kind, recipe.scene.kind);
   EXPECT_EQ(back.scene.set, recipe.scene.set);
   EXPECT_EQ(back.scene.strength, recipe.scene.strength);
-  EXPECT_EQ(back.scene.radius, recipe.scene.radius);
   EXPECT_EQ(back.cat, recipe.cat);
   EXPECT_EQ(back.keepExposure, recipe.keepExposure);
   EXPECT_EQ(toYaml(back), toYaml(recipe));
+  for (const auto kind : {ReferenceScene::Kind::Natural, ReferenceScene::Kind::Smooth, ReferenceScene::Kind::Skin}) {
+    recipe.scene = {kind, "", kind == ReferenceScene::Kind::Skin ? 0.3 : 1.0};
+    const Recipe other = parse(toYaml(recipe));
+    EXPECT_EQ(other.scene.kind, kind);
+    EXPECT_EQ(other.scene.strength, recipe.scene.strength);
+  }
 }
 
 TEST(RecipeTest, RefusesMalformedRecipes) {
@@ -214,15 +216,18 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
       {"adaptation out of range", "metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: A, adaptation: 1.01}\n",
        "r.yaml:3: output.adaptation '1.01': must be a number from 0 to 1"},
       {"unknown scene", with("scene: {kind: smoth}\n"),
-       "r.yaml:4: scene.kind 'smoth': must be smooth, dataset or prior"},
-      {"set for smooth", with("scene: {set: skin}\n"),
-       "r.yaml:4: scene.set 'skin': has no meaning with kind smooth; use kind dataset or prior, or leave it out"},
+       "r.yaml:4: scene.kind 'smoth': must be natural, skin, smooth or dataset"},
+      {"set for smooth", with("scene: {kind: smooth, set: skin}\n"),
+       "r.yaml:4: scene.set 'skin': has a meaning with kind dataset alone; leave it out"},
+      {"set for the default", with("scene: {set: skin}\n"),
+       "r.yaml:4: scene.set 'skin': has a meaning with kind dataset alone; leave it out"},
       {"dataset without set", with("scene:\n  kind: dataset\n"),
        "r.yaml:5: scene.set: is missing; name a reflectance set (see: lutgen list reflectances)"},
-      {"strength out of range", with("scene: {kind: prior, set: skin, strength: 2}\n"),
+      {"strength for natural", with("scene: {kind: natural, strength: 0.5}\n"),
+       "r.yaml:4: scene.strength '0.5': has a meaning with kind skin alone; leave it out"},
+      {"strength out of range", with("scene: {kind: skin, strength: 2}\n"),
        "r.yaml:4: scene.strength '2': must be a number from 0 to 1"},
-      {"radius of zero", with("scene: {kind: prior, set: skin, radius: 0}\n"),
-       "r.yaml:4: scene.radius '0': must be a number from 0.0001 to 1"},
+      {"radius", with("scene: {kind: skin, radius: 0.1}\n"), "r.yaml:4: key 'scene.radius': unknown"},
       {"unknown cat", with("cat: cat61\n"), "r.yaml:4: cat 'cat61': must be vonkries, bradford, cat02 or cat16"},
       {"anchor", "metamer: 1\ninput: &a {illuminant: D65}\noutput: {illuminant: A}\n",
        "r.yaml:2: anchor: anchors are not allowed in a recipe; write the value out"},
@@ -267,11 +272,11 @@ TEST(RecipeTest, NumbersDoNotDependOnTheLocale) {
       break;
     }
   }
-  const Recipe recipe = parse(std::string(kShortest) + "scene: {kind: prior, set: skin, strength: 0.5}\n");
+  const Recipe recipe = parse(std::string(kShortest) + "scene: {kind: skin, strength: 0.5}\n");
   const std::string text = toYaml(recipe);
   std::setlocale(LC_ALL, before.c_str());
   EXPECT_EQ(recipe.scene.strength, 0.5);
-  EXPECT_NE(text.find("strength: 0.5,"), std::string::npos);
+  EXPECT_NE(text.find("strength: 0.5}"), std::string::npos);
 }
 
 TEST_F(RecipeFileTest, FilesAreBesideTheRecipe) {
@@ -301,7 +306,7 @@ TEST(RecipeTest, ResolvesEveryName) {
   const Recipe recipe = parse(
       "metamer: 1\nspace: ACEScct\ninput: {illuminant: D65, filters: [{name: ISO Standard Lens, density: 2}]}\n"
       "output: {illuminant: A, observer: Nikon D5100, adaptation: 1}\n"
-      "scene: {kind: prior, set: skin, strength: 0.5, radius: 0.1}\ncat: bradford\nkeep_exposure: true\n");
+      "scene: {kind: skin, strength: 0.5}\ncat: bradford\nkeep_exposure: true\n");
   const TransformSpec spec = resolve(recipe, testLibrary());
   EXPECT_EQ(spec.space.primaries, testLibrary().colourSpace("ACEScg").linear.primaries);
   EXPECT_EQ(spec.input.illuminant.name(), "D65");
@@ -311,14 +316,32 @@ TEST(RecipeTest, ResolvesEveryName) {
   EXPECT_EQ(spec.adaptation, 1.0);
   EXPECT_EQ(spec.cat, spectral::ChromaticAdaptation::Bradford);
   EXPECT_TRUE(spec.keepExposure);
-  EXPECT_EQ(spec.scene.kind, ReferenceScene::Kind::Prior);
-  EXPECT_EQ(spec.scene.samples.size(), testLibrary().reflectances("skin").samples.size());
+  EXPECT_EQ(spec.scene.kind, ReferenceScene::Kind::Skin);
   EXPECT_EQ(spec.scene.strength, 0.5);
-  EXPECT_EQ(spec.scene.radius, 0.1);
-  EXPECT_EQ(spec.training.size(), 190U);
+  EXPECT_EQ(spec.scene.skins.size(), testLibrary().reflectances("model skins").samples.size());
+  // All that was measured, less what two tables have of one paint.
+  EXPECT_EQ(spec.training.size(), 356U);
+  EXPECT_EQ(spec.scene.samples.size(), spec.training.size());
+  for (std::size_t i = 0; i < spec.training.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      ASSERT_GE((spec.training[i] - spec.training[j]).norm(), 0.02 * std::sqrt(spectral::kDomainSize));
+    }
+  }
   EXPECT_EQ(spec.standardObserver.name, "CIE 1931 2");
   const spectral::RgbSpace other = testLibrary().colourSpace("ACES2065-1").linear;
   EXPECT_EQ(resolve(recipe, testLibrary(), other).space.primaries, other.primaries);
+}
+
+TEST(RecipeTest, ScenesResolveToWhatTheyNeed) {
+  const auto scene = [](const std::string& text) {
+    return resolve(parse(std::string(kShortest) + text), testLibrary()).scene;
+  };
+  EXPECT_EQ(scene("").kind, ReferenceScene::Kind::Natural);
+  EXPECT_EQ(scene("").skins.size(), 100U);
+  EXPECT_TRUE(scene("scene: {kind: smooth}\n").samples.empty());
+  const ReferenceScene dataset = scene("scene: {kind: dataset, set: skin}\n");
+  EXPECT_EQ(dataset.samples.size(), testLibrary().reflectances("skin").samples.size());
+  EXPECT_TRUE(dataset.skins.empty());
 }
 
 TEST(RecipeTest, UnknownNamesListNearOnes) {
@@ -335,7 +358,7 @@ TEST(RecipeTest, UnknownNamesListNearOnes) {
   recipe.space = "ACESgc";
   EXPECT_NE(error(recipe).find("ACEScg; all names"), std::string::npos) << error(recipe);
   recipe = base();
-  recipe.scene = {ReferenceScene::Kind::Dataset, "colorcheker", 1.0, 0.04};
+  recipe.scene = {ReferenceScene::Kind::Dataset, "colorcheker", 1.0};
   EXPECT_NE(error(recipe).find("near names: colorchecker"), std::string::npos) << error(recipe);
 }
 

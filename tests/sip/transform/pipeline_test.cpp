@@ -61,16 +61,14 @@ TEST(SpectralTransformTest, PipelinesWithoutOverlap) {
   spec.input.illuminant = spectral::Spectrum("blue half", power, {380.0, 480.0, 490.0}, {1.0, 1.0, 0.0});
   spec.output.illuminant = spectral::Spectrum("red half", power, {600.0, 610.0, 780.0}, {0.0, 1.0, 1.0});
   const SpectralTransform transform(spec);
-  const auto diagnostics = transform.diagnostics();
   double gain = 0.0;
   for (const Vector3d& colour : colours(500)) {
     const Vector3d result = transform.apply(colour);
     ASSERT_TRUE(result.allFinite()) << colour.transpose();
     gain = std::max(gain, result.norm() / colour.norm());
   }
-  std::printf("[ no overlap ] rank %d, condition %.3g, matrix gain %.3g, largest gain %.3g\n", diagnostics.rank,
-              diagnostics.conditionNumber, diagnostics.matrixGain, gain);
-  EXPECT_LT(gain, 10'000.0);
+  std::printf("[ no overlap ] condition %.3g, largest gain %.3g\n", transform.diagnostics().conditionNumber, gain);
+  EXPECT_LT(gain, 100.0);
 }
 
 TEST(SpectralTransformTest, FiltersStackByDensity) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sip/transform/transform_fixture.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <cmath>
 #include <random>
 
 namespace metamer::sip {
@@ -46,6 +48,31 @@ Vector3d outputRgb(const TransformSpec& spec, const spectral::DomainSamples& ref
   const Vector3d response = output.curves.transpose() * reflectance.cwiseProduct(output.light);
   const Vector3d xyz = cones.inverse() * (gain.asDiagonal() * (cones * (output.xyzFromResponse * response)));
   return spec.space.rgbFromXyz() * xyz;
+}
+
+spectral::Spectrum laser(double wavelengthNm) {
+  return spectral::Spectrum("laser", spectral::SpectralQuantity::SpectralPowerDistribution,
+                            {wavelengthNm - 1.0, wavelengthNm, wavelengthNm + 1.0}, {0.0, 1.0, 0.0});
+}
+
+RelativeColours::RelativeColours(const SpectralTransform& transform)
+    : m_transform(transform),
+      m_relativeFromRgb(transform.whiteXyz().cwiseInverse().asDiagonal() * transform.space().xyzFromRgb()),
+      m_rgbFromRelative(m_relativeFromRgb.inverse()) {}
+
+Vector3d RelativeColours::apply(const Vector3d& relative) const {
+  return m_relativeFromRgb * m_transform.apply(Vector3d(m_rgbFromRelative * relative));
+}
+
+Matrix3d RelativeColours::derivative(const Vector3d& relative) const {
+  return m_relativeFromRgb * m_transform.linearise(m_rgbFromRelative * relative).matrix * m_rgbFromRelative;
+}
+
+double RelativeColours::steepness(const Vector3d& relative) const {
+  const Matrix3d slope = derivative(relative);
+  Eigen::SelfAdjointEigenSolver<Matrix3d> squares;
+  squares.computeDirect(slope.transpose() * slope, Eigen::EigenvaluesOnly);
+  return std::sqrt(squares.eigenvalues()[2]);
 }
 
 }  // namespace metamer::sip
