@@ -17,9 +17,9 @@ from door import Door, Engine, Map, targets, use_target  # noqa: E402
 from hard.files import SCENE  # noqa: E402
 from sections.stability import adversarial  # noqa: E402
 
-# Lights, and the set of a prior where there is one.
-ENGINES = {"D65->A": ("D65", "A", None), "D65->HP1": ("D65", "HP1", None), "FL11->D50": ("FL11", "D50", None),
-           "LED-RGB1->D65": ("LED-RGB1", "D65", None), "D65->FL11, prior": ("D65", "FL11", "colorchecker")}
+# Lights, and the scene.
+ENGINES = {"D65->A": ("D65", "A", "smooth"), "D65->HP1": ("D65", "HP1", "smooth"), "FL11->D50": ("FL11", "D50", "smooth"),
+           "LED-RGB1->D65": ("LED-RGB1", "D65", "smooth"), "D65->FL11, natural": ("D65", "FL11", "natural")}
 # Two recipes in every kind of table, and a matrix.
 BAKES = {f"{light}{suffix}": ("--illuminant-in", "D65", "--illuminant-out", light, *options)
          for light in ("A", "HP1")
@@ -41,10 +41,10 @@ def main():
     pixels = adversarial(door, 100_003)
     pixels[:7, 0] = [np.nan, np.inf, -np.inf, 0.0, -0.0, 1e-45, 65504]
     arrays = {}
-    for name, (source, destination, prior) in ENGINES.items():
-        engine = Engine(door, source, destination, 251, prior)
+    for name, (source, destination, scene) in ENGINES.items():
+        engine = Engine(door, source, destination, 251, scene)
         arrays[f"exact/{name}"], _ = engine.apply(colours)
-        if prior:
+        if scene != "smooth":
             continue
         table = Map(engine, 0.09)
         for target, bit in targets(door).items():

@@ -29,7 +29,7 @@ class Door:
             "metamerExact": (None, [_HANDLE, _HANDLE, _HANDLE, _SIZE, _INT]),
             "metamerDeltaE": (None, [_HANDLE, _HANDLE, _HANDLE, _HANDLE, _SIZE]),
             "metamerTimeSolves": (None, [_TEXT, _INT, _INT, _HANDLE, _SIZE, _HANDLE]),
-            "metamerEngine": (_HANDLE, [_TEXT, _TEXT, _INT, _TEXT, _DOUBLE]), "metamerEngineClose": (None, [_HANDLE]),
+            "metamerEngine": (_HANDLE, [_TEXT, _TEXT, _INT, _TEXT, _TEXT, _DOUBLE]), "metamerEngineClose": (None, [_HANDLE]),
             "metamerEngineApply": (_DOUBLE, [_HANDLE, _HANDLE, _HANDLE, _SIZE]),
             "metamerEngineDiagnostics": (None, [_HANDLE, _HANDLE]),
             "metamerObserverDiagnostics": (_INT, [_TEXT, _TEXT, _HANDLE]),
@@ -72,11 +72,11 @@ class Door:
         self.library.metamerCopy(_pointer(source), _pointer(destination), source.size // 4)
 
     def observer_diagnostics(self, observer, light):
-        """Condition number, rank and gain of an observer under a light; None where the engine refuses them."""
+        """Condition number, relaxation and gain of an observer under a light; None where the engine refuses them."""
         three = np.empty(3)
         if not self.library.metamerObserverDiagnostics(observer.encode(), light.encode(), _pointer(three)):
             return None
-        return {"condition": three[0], "rank": int(three[1]), "matrix_gain": three[2]}
+        return {"condition": three[0], "relaxation": three[1], "matrix_gain": three[2]}
 
     def delta_e(self, handle, a, b):
         a, b = _rows(a), _rows(b)
@@ -94,13 +94,13 @@ class Door:
 
 
 class Engine:
-    """The exact engine at a number of bands, with a prior's set and strength or without. `refused` where it has no
-    meaning for these lights."""
+    """The exact engine at a number of bands, under a scene, which may have a set or a strength. `refused` where
+    it has no meaning for these lights."""
 
-    def __init__(self, door, source, destination, bands, prior=None, strength=1.0):
+    def __init__(self, door, source, destination, bands, scene="smooth", surfaces="", strength=1.0):
         self.library, self.lights = door.library, (source.encode(), destination.encode())
         self.handle = self.library.metamerEngine(source.encode(), destination.encode(), bands,
-                                                 prior.encode() if prior else None, strength)
+                                                 scene.encode(), surfaces.encode(), strength)
         self.refused = self.handle is None
 
     def __del__(self):
@@ -125,7 +125,7 @@ class Engine:
     def diagnostics(self):
         three = np.empty(3)
         self.library.metamerEngineDiagnostics(self.handle, _pointer(three))
-        return {"condition": three[0], "rank": int(three[1]), "matrix_gain": three[2]}
+        return {"condition": three[0], "relaxation": three[1], "matrix_gain": three[2]}
 
     def largest_gain(self, rgb):
         rgb = _rows(rgb)

@@ -97,20 +97,16 @@ std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
 
 }  // namespace
 
-/// The transform between two lights of data/ in ACEScg at `bands`; null where the engine refuses it. `set`:
-/// reflectances of a prior of that strength, of a data set on its own where the strength is negative, or null for
-/// smooth.
-extern "C" void* metamerEngine(const char* input, const char* output, int bands, const char* set, double strength) {
+/// The transform between two lights of data/ in ACEScg at `bands`; null where the engine refuses it.
+/// @param scene  "natural", "skin", "smooth" or "dataset", with a set or a strength where it has one
+extern "C" void* metamerEngine(const char* input, const char* output, int bands, const char* scene, const char* set,
+                               double strength) {
   try {
     const auto library = spectral::DataLibrary::openDefault();
     sip::Recipe recipe;
     recipe.input.illuminant = input;
     recipe.output.illuminant = output;
-    if (set != nullptr) {
-      recipe.scene.kind = strength < 0 ? sip::ReferenceScene::Kind::Dataset : sip::ReferenceScene::Kind::Prior;
-      recipe.scene.set = set;
-      recipe.scene.strength = std::max(strength, 0.0);
-    }
+    recipe.scene = {sip::sceneKindFromName(scene), set, strength};
     return std::make_unique<sip::SpectralTransform>(sip::resolve(recipe, library), bands).release();
   } catch (const spectral::InputError&) {
     return nullptr;
@@ -152,12 +148,13 @@ extern "C" double metamerEngineApply(void* engine, const double* rgb, double* re
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Condition number of the input weights, channels told apart, gain of the linear branch.
+/// Condition number of the input weights, relaxation, largest singular value of the linear piece.
 extern "C" void metamerEngineDiagnostics(void* engine, double* three) {
-  const auto diagnostics = static_cast<sip::SpectralTransform*>(engine)->diagnostics();
+  const auto* transform = static_cast<sip::SpectralTransform*>(engine);
+  const auto diagnostics = transform->diagnostics();
   three[0] = diagnostics.conditionNumber;
-  three[1] = diagnostics.rank;
-  three[2] = diagnostics.matrixGain;
+  three[1] = diagnostics.relaxation;
+  three[2] = transform->linearMatrix().operatorNorm();
 }
 
 /// The same three for an observer of data/ under a light of data/, towards CIE 1931 under D65; false where the engine
@@ -177,7 +174,7 @@ extern "C" int metamerObserverDiagnostics(const char* observer, const char* ligh
   }
 }
 
-/// Largest gain (singular value of the derivative) over colours, over that of the linear branch.
+/// Largest singular value of the derivative over colours, over that of the linear piece.
 extern "C" double metamerEngineLargestGain(void* engine, const double* rgb, std::size_t count) {
   const auto* transform = static_cast<sip::SpectralTransform*>(engine);
   double largest = 0;
@@ -185,7 +182,7 @@ extern "C" double metamerEngineLargestGain(void* engine, const double* rgb, std:
     largest =
         std::max(largest, transform->linearise(Eigen::Map<const Eigen::Vector3d>(rgb + 3 * i)).matrix.operatorNorm());
   }
-  return largest / transform->diagnostics().matrixGain;
+  return largest / transform->linearMatrix().operatorNorm();
 }
 
 /// Share of colours where the map of chromaticities turns over (negative determinant: it folds), and the largest gain.

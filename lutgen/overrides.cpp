@@ -16,6 +16,8 @@ namespace {
 
 using spectral::InputError;
 
+constexpr const char* kSceneForms = "natural, smooth, skin[:strength] or dataset:SET";
+
 /// A name as it is; a file by its whole path, so that it is not looked for beside the recipe.
 std::string fromWorkingFolder(const std::string& nameOrFile, const std::vector<std::string>& names) {
   const auto isName = [&](const std::string& name) {
@@ -61,9 +63,9 @@ std::vector<sip::RecipeFilter> filtersFrom(const std::vector<std::string>& texts
   return filters;
 }
 
-/// smooth | dataset:SET | prior:SET[:strength[:radius]]
+/// natural | smooth | skin[:strength] | dataset:SET
 sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::string>& names) {
-  const std::string form = "write smooth, dataset:SET or prior:SET[:strength[:radius]]";
+  const std::string form = std::string("write ") + kSceneForms;
   std::vector<std::string> parts(1);
   for (const char c : text) {
     if (c == ':') {
@@ -72,29 +74,27 @@ sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::strin
       parts.back() += c;
     }
   }
-  sip::RecipeScene scene;
-  if (parts[0] == "smooth" && parts.size() == 1) {
-    return scene;
+  if (parts[0] == "prior") {
+    throw InputError("--scene", "scene", text, "prior is gone: natural and skin took its place; " + form);
   }
-  const bool isPrior = parts[0] == "prior";
-  if ((!isPrior && parts[0] != "dataset") || parts.size() < 2 || parts.size() > (isPrior ? 4U : 2U) ||
-      parts[1].empty()) {
+  const bool isDataset = parts[0] == "dataset";
+  const bool isSkin = parts[0] == "skin";
+  const bool isKnown = isDataset || isSkin || parts[0] == "natural" || parts[0] == "smooth";
+  if (!isKnown || parts.size() > (isDataset || isSkin ? 2U : 1U) || (isDataset && parts.size() < 2) ||
+      parts.back().empty()) {
     throw InputError("--scene", "scene", text, form);
   }
-  scene.kind = isPrior ? sip::ReferenceScene::Kind::Prior : sip::ReferenceScene::Kind::Dataset;
-  scene.set = fromWorkingFolder(parts[1], names);
-  const auto readPart = [&](std::size_t index, double& value, double lowest, double highest, const std::string& what) {
-    if (parts.size() <= index) {
-      return;
+  sip::RecipeScene scene;
+  scene.kind = sip::sceneKindFromName(parts[0]);
+  if (isDataset) {
+    scene.set = fromWorkingFolder(parts[1], names);
+  } else if (isSkin && parts.size() > 1) {
+    const std::optional<double> strength = number(parts[1]);
+    if (!strength || *strength < 0.0 || *strength > 1.0) {
+      throw InputError("--scene", "strength", parts[1], "must be a number from 0 to 1; " + form);
     }
-    const std::optional<double> read = number(parts[index]);
-    if (!read || *read < lowest || *read > highest) {
-      throw InputError("--scene", what, parts[index], "is no number of its range; " + form);
-    }
-    value = *read;
-  };
-  readPart(2, scene.strength, 0.0, 1.0, "strength");
-  readPart(3, scene.radius, 1e-6, 1.0, "radius");
+    scene.strength = *strength;
+  }
   return scene;
 }
 
@@ -112,7 +112,7 @@ void addOverrides(CLI::App& command, Overrides& overrides) {
   command.add_option("--filter-out", overrides.filtersOut, filter)->group(group)->expected(1)->take_all();
   command.add_option("--observer-in", overrides.observerIn, "NAME or FILE")->group(group);
   command.add_option("--observer-out", overrides.observerOut, "NAME or FILE")->group(group);
-  command.add_option("--scene", overrides.scene, "smooth, dataset:SET or prior:SET[:strength[:radius]]")->group(group);
+  command.add_option("--scene", overrides.scene, kSceneForms)->group(group);
   command.add_option("--space", overrides.space, "Working space, in and out: built in, or of the config in $OCIO")
       ->group(group);
   command.add_option("--cat", overrides.cat, "Chromatic adaptation")

@@ -23,7 +23,7 @@ def illuminants():
 
 
 def observers(context):
-    """Every observer of data/ under every light: condition number, channels told apart."""
+    """Every observer of data/ under every light: condition number, and where the tristimulus is relaxed."""
     rows = []
     for observer in (name for table in tables("observers") for name in table["names"]):
         found = {light: context.door.observer_diagnostics(observer, light) for light in illuminants()}
@@ -32,14 +32,14 @@ def observers(context):
         rows.append({"observer": observer, "least": seen[ranked[0]]["condition"],
                      "median": seen[ranked[len(ranked) // 2]]["condition"], "largest": seen[ranked[-1]]["condition"],
                      "worst_light": ranked[-1], "next_worst": seen[ranked[-2]]["condition"], "next_light": ranked[-2],
-                     "fewer_channels": [light for light in ranked if seen[light]["rank"] < 3],
+                     "relaxed": [light for light in ranked if seen[light]["relaxation"] > 0],
                      "refused": [light for light, d in found.items() if not d],
                      "conditions": {light: round(d["condition"], 4) for light, d in seen.items()}})
     return rows
 
 
 def lights(context):
-    """Each as input light, to D65: condition number, rank, gain of the matrix and the largest gain over it, and error."""
+    """Each as input light, to D65: condition number, relaxation, gain of the matrix and the largest gain over it, and error."""
     door, rows = context.door, []
     handle = door.open("D65", "A")  # for CIEDE2000 in ACEScg, and chromaticities
     probes = door.probes(handle)[::4]
@@ -114,12 +114,12 @@ def run(context):
             "instruction_sets": instruction_sets(context)}
 
 
-TABLE = ("| light | condition | channels | matrix gain | worst gain over it | p99 | max |",
+TABLE = ("| light | condition | relaxation | matrix gain | worst gain over it | p99 | max |",
          "| --- | --- | --- | --- | --- | --- | --- |")
 
 
 def _light_row(r):
-    return (f"| {r['light']} | {r['condition']:.3g} | {r['rank']} | {r['matrix_gain']:.3g} "
+    return (f"| {r['light']} | {r['condition']:.3g} | {r['relaxation']:.2g} | {r['matrix_gain']:.3g} "
             f"| {r['gain_over_matrix']:.3g} | {r['p99']:.3f} | {r['max']:.2f} |")
 
 
@@ -131,8 +131,8 @@ def _some(names):
 
 def markdown(results):
     ranked = sorted((r for r in results["lights"] if "refused" not in r), key=lambda r: -r["condition"])
-    lines = [f"{len(results['lights'])} lights as input, to D65. Condition number of the white-normalised weights; the channels "
-             "told apart; gain of the linear branch and of the worst colour over it; error against 401 bands. The ten worst "
+    lines = [f"{len(results['lights'])} lights as input, to D65. Condition number of the white-normalised weights; how far the "
+             "tristimulus is relaxed; gain of the linear branch and of the worst colour over it; error against 401 bands. The ten worst "
              "and three ordinary ones:", "", *TABLE]
     for r in ranked[:10] + [r for r in ranked if r["light"] in ("A", "D65", "FL11")]:
         lines.append(_light_row(r))
@@ -141,12 +141,12 @@ def markdown(results):
               "<details><summary>All lights</summary>", "", *TABLE]
     lines += [_light_row(r) for r in ranked]
     lines += ["", "</details>", "",
-              f"Every observer of data/ under the {len(results['lights'])} lights: condition number, and the lights that leave it "
-              "fewer than three channels or none.", "",
-              "| observer | least | median | worst but one | worst | fewer than three channels under | refused |",
+              f"Every observer of data/ under the {len(results['lights'])} lights: condition number, and the lights under which "
+              "its tristimulus is relaxed, or refused.", "",
+              "| observer | least | median | worst but one | worst | relaxed under | refused |",
               "| --- | --- | --- | --- | --- | --- | --- |"]
     lines += [f"| {r['observer']} | {r['least']:.2f} | {r['median']:.2f} | {r['next_worst']:.3g} ({r['next_light']}) "
-              f"| {r['largest']:.3g} ({r['worst_light']}) | {_some(r['fewer_channels'])} | {_some(r['refused'])} |" for r in results["observers"]]
+              f"| {r['largest']:.3g} ({r['worst_light']}) | {_some(r['relaxed'])} | {_some(r['refused'])} |" for r in results["observers"]]
     lines += ["",
               f"The kernel on {ADVERSARIAL:,} hard colours, difference relative to the pixel's largest value:", "",
               "| lights | | median | p99.99 | max | all finite |", "| --- | --- | --- | --- | --- | --- |"]

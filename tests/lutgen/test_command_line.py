@@ -195,12 +195,12 @@ class Bake(LutgenTest):
         (self.folder / "gel.csv").write_text("nm,transmittance\n380,0.9\n580,0.2\n780,0.8\n")
         self.assertWorks(
             "bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--filter-out", "gel.csv:0.5", "--filter-out", "gel.csv",
-            "--shaper", "LogC3", "--scene", "prior:skin:0.5", "--keep-exposure", "--size", "9",
+            "--shaper", "LogC3", "--scene", "skin:0.5", "--keep-exposure", "--size", "9",
         )
         certificate = json.loads((self.folder / "a.cube.json").read_text())
         self.assertEqual([f["density"] for f in certificate["recipe"]["output"]["filters"]], [0.5, 1.0])
         self.assertEqual(certificate["transform"]["shaper"], "LogC3")
-        self.assertEqual(certificate["recipe"]["scene"], {"kind": "prior", "set": "skin", "strength": 0.5, "radius": 0.04})
+        self.assertEqual(certificate["recipe"]["scene"], {"kind": "skin", "strength": 0.5})
         self.assertNotIn(str(self.folder), (self.folder / "a.cube.json").read_text())
 
     def test_bad_input_is_named(self):

@@ -105,9 +105,9 @@ void randomise(Instance& effect, std::mt19937& generator) {
       effect.set(name, below(50) == 0 ? -1.0 : isKelvin ? 1500 + 9000 * unit : unit * (below(5) == 0 ? 4 : 1));
     }
   }
-  // A window of a few hundred pixels is soon solved. Maps take their time: seldom, not of a prior, whose slopes are
-  // found by trying, and of an eye under a bare light: a gel or a camera may hardly tell colours apart.
-  if (below(12) != 0 || effect.menuOption("scene") == "Prior") {
+  // A window of a few hundred pixels is soon solved. Maps take their time: seldom, and of an eye under a bare light: a
+  // gel or a camera may hardly tell colours apart.
+  if (below(12) != 0) {
     effect.set("quality", "Exact");
   } else {
     effect.set("inputFilter", "None");

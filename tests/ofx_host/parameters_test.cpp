@@ -155,8 +155,11 @@ TEST_F(OfxParameters, WhatHasNoSayIsGreyedOut) {
   EXPECT_FALSE(isEnabled("priorStrength"));
   effect->set("outputIlluminant", "Blackbody");
   EXPECT_TRUE(isEnabled("outputTemperature"));
-  effect->set("scene", "Prior");
+  effect->set("scene", "Skin");
   EXPECT_TRUE(isEnabled("priorStrength"));
+  EXPECT_FALSE(isEnabled("sceneSet"));
+  effect->set("scene", "Data set");
+  EXPECT_FALSE(isEnabled("priorStrength"));
   EXPECT_TRUE(isEnabled("sceneSet"));
   effect->set("recipeFile", std::string("day.yaml"));
   EXPECT_FALSE(isEnabled("outputTemperature"));

@@ -114,8 +114,9 @@ class AgainstLutgen(unittest.TestCase):
         rgb = pictures.photograph("astronaut.png")[::4, ::4]
         for scene, settings in (
             ("{kind: dataset, set: colorchecker}", {"scene": "Data set"}),
-            ("{kind: prior, set: skin, strength: 0.7, radius: 0.05}",
-             {"scene": "Prior", "sceneSet": "skin", "priorStrength": 0.7, "priorRadius": 0.05}),
+            ("{kind: skin, strength: 0.7}", {"scene": "Skin", "priorStrength": 0.7}),
+            ("{kind: smooth}", {"scene": "Smooth"}),
+            ("{kind: natural}", {}),
         ):
             with self.subTest(scene=scene):
                 recipe = self.recipe(

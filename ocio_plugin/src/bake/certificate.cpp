@@ -38,18 +38,6 @@ std::string portable(const std::string& name) {
   return path.is_absolute() ? path.filename().string() : name;
 }
 
-std::string kindName(sip::ReferenceScene::Kind kind) {
-  switch (kind) {
-    case sip::ReferenceScene::Kind::Smooth:
-      return "smooth";
-    case sip::ReferenceScene::Kind::Dataset:
-      return "dataset";
-    case sip::ReferenceScene::Kind::Prior:
-      return "prior";
-  }
-  return {};
-}
-
 Json pipelineJson(const sip::RecipePipeline& pipeline) {
   Json filters = Json::array();
   for (const auto& filter : pipeline.filters) {
@@ -62,13 +50,12 @@ Json pipelineJson(const sip::RecipePipeline& pipeline) {
 Json recipeJson(const sip::Recipe& recipe) {
   Json output = pipelineJson(recipe.output);
   output["adaptation"] = recipe.adaptation;
-  Json scene = {{"kind", kindName(recipe.scene.kind)}};
-  if (recipe.scene.kind != sip::ReferenceScene::Kind::Smooth) {
+  Json scene = {{"kind", sip::nameOf(recipe.scene.kind)}};
+  if (recipe.scene.kind == sip::ReferenceScene::Kind::Dataset) {
     scene["set"] = portable(recipe.scene.set);
   }
-  if (recipe.scene.kind == sip::ReferenceScene::Kind::Prior) {
+  if (recipe.scene.kind == sip::ReferenceScene::Kind::Skin) {
     scene["strength"] = recipe.scene.strength;
-    scene["radius"] = recipe.scene.radius;
   }
   return {{"metamer", 1},
           {"name", recipe.name},
@@ -179,8 +166,13 @@ std::string Certificate::json() const {
           {"rgb", {significant(error.worstRgb[0]), significant(error.worstRgb[1]), significant(error.worstRgb[2])}}}}}},
       {"diagnostics",
        {{"condition_number", significant(diagnostics.conditionNumber)},
-        {"rank", diagnostics.rank},
-        {"matrix_gain", significant(diagnostics.matrixGain)},
+        {"surface_gain", significant(diagnostics.gain)},
+        {"relaxation", significant(diagnostics.relaxation)},
+        {"reach",
+         {{"up", significant(diagnostics.reachUp)},
+          {"down", significant(diagnostics.reachDown)},
+          {"aside", significant(diagnostics.reachAside)}}},
+        {"limited_surfaces", rounded(diagnostics.limitedShare)},
         {"gain", significant(gain)},
         {"folds", rounded(folds)}}},
       {"policy",
@@ -202,17 +194,21 @@ std::vector<std::string> Certificate::lines() const {
   std::snprintf(figures.data(), figures.size(),
                 "CIEDE2000 against the spectral engine: mean %.3f, p99 %.3f, max %.3f, stops %+d to %+d", error.mean,
                 error.p99, error.max, probes.lowestStop, probes.highestStop);
+  std::array<char, 48> scene{};
+  std::snprintf(scene.data(), scene.size(), recipe.scene.kind == sip::ReferenceScene::Kind::Skin ? " %.4g" : "",
+                recipe.scene.strength);
   std::vector<std::string> result = {
-      "metamer " + toolVersion() + ": " + side(recipe.input) + " -> " + side(recipe.output),
+      "metamer " + toolVersion() + ": " + side(recipe.input) + " -> " + side(recipe.output) + ", scene " +
+          sip::nameOf(recipe.scene.kind) + scene.data(),
       "space " + recipe.space + ", " + nameOf(representation) +
           (size > 0 ? ", " + std::to_string(size) + " nodes a side, " + (fitted ? "fitted" : "sampled") : "") +
           (shaper.empty() ? "" : ", shaper " + shaper) +
           (prelutSize > 0 ? ", prelut of " + std::to_string(prelutSize) + " entries" : ""),
       figures.data(), "worst: " + error.worstProbe};
   std::array<char, 160> range{};
-  std::snprintf(range.data(), range.size(), "gamut %s%s; condition %.4g, rank %d, gain %.4g, folds %.2f %%",
+  std::snprintf(range.data(), range.size(), "gamut %s%s; condition %.4g, relaxation %.3g, gain %.4g, folds %.2f %%",
                 gamut.c_str(), probes.insideGamutOnly ? ", inside only" : "", diagnostics.conditionNumber,
-                diagnostics.rank, gain, 100.0 * folds);
+                diagnostics.relaxation, gain, 100.0 * folds);
   result.emplace_back(range.data());
   if (choice) {
     std::array<char, 160> text{};
@@ -255,8 +251,25 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
   };
   addPipeline("input", recipe.input);
   addPipeline("output", recipe.output);
-  if (recipe.scene.kind != sip::ReferenceScene::Kind::Smooth) {
-    add("scene.set", "reflectances", recipe.scene.set);
+  switch (recipe.scene.kind) {
+    case sip::ReferenceScene::Kind::Smooth:
+      break;
+    case sip::ReferenceScene::Kind::Dataset:
+      add("scene.set", "reflectances", recipe.scene.set);
+      break;
+    case sip::ReferenceScene::Kind::Natural:
+    case sip::ReferenceScene::Kind::Skin: {
+      // All sets of the library, by one hash of theirs.
+      std::string hashes;
+      for (const std::string& name : library.reflectanceSetNames()) {
+        hashes += library.provenance("reflectances", name).sha256 + " " + name + "\n";
+      }
+      spectral::Provenance provenance;
+      provenance.name = "all measured reflectances and model skins";
+      provenance.sha256 = sha256(hashes);
+      inputs.push_back({"scene.set", std::move(provenance)});
+      break;
+    }
   }
   return inputs;
 }

@@ -92,7 +92,7 @@ OCIO::GroupTransformRcPtr engineOperators(Representation representation, const s
     case Representation::Identity:
       break;
     case Representation::Matrix:
-      group->appendTransform(matrixOperator(transform.unconstrainedMatrix()));
+      group->appendTransform(matrixOperator(transform.linearMatrix()));
       break;
     case Representation::ExposureInvariantChain:
       return exposureInvariantChain(spec, transform, {.size = size});

@@ -9,15 +9,9 @@
 #include <limits>
 #include <numbers>
 
-#include "metamer/sip/band_weights.h"
-#include "metamer/sip/feasible_cone.h"
-#include "metamer/sip/pipeline.h"
-
 namespace metamer::ocio {
 namespace {
 
-/// Bands of the cone of visible colours: 5 nm apart.
-constexpr int kConeBandCount = 81;
 /// Least cosine between a colour and the plane's axis: below it the plane would be stretched beyond use.
 constexpr double kLeastCosine = 0.02;
 /// Axes tried, on white-normalised responses.
@@ -28,25 +22,6 @@ constexpr double kGoodCosine = 0.15;
 constexpr double kMargin = 0.004;
 /// Directions tried for the sides of the parallelogram that becomes the unit square.
 constexpr int kSideDirections = 360;
-
-/// The cone, white-normalised, of what the input's observer can see by a light.
-sip::FeasibleCone coneUnder(const spectral::DomainSamples& light, const sip::PreparedPipeline& input) {
-  const Eigen::Matrix3Xd weights =
-      input.white.cwiseInverse().asDiagonal() * sip::bandWeights(light, input.curves, kConeBandCount);
-  return {sip::litGenerators(weights), Eigen::Matrix3d::Identity()};
-}
-
-/// The least cone round two others.
-sip::FeasibleCone coneRound(const sip::FeasibleCone& a, const sip::FeasibleCone& b) {
-  Eigen::Matrix3Xd rays(3, a.corners().size() + b.corners().size());
-  Eigen::Index column = 0;
-  for (const sip::FeasibleCone* const cone : {&a, &b}) {
-    for (const Eigen::Vector3d& corner : cone->corners()) {
-      rays.col(column++) = corner;
-    }
-  }
-  return {rays, Eigen::Matrix3d::Identity()};
-}
 
 /// Colours all over a cone: blends of white with the points of its border.
 std::vector<Eigen::Vector3d> spread(const std::vector<Eigen::Vector3d>& corners) {
@@ -190,13 +165,14 @@ Eigen::Vector3d ChromaticityFrame::colour(const Eigen::Vector3d& coordinates) co
 
 std::vector<ChromaticityPlane> chromaticityPlanes(const sip::TransformSpec& spec,
                                                   const sip::SpectralTransform& transform) {
-  const sip::PreparedPipeline pipeline = sip::prepare(spec.input, spec.training, spec.standardObserver);
-  const sip::FeasibleCone feasible = coneUnder(pipeline.light, pipeline);
-  // Where this light is strong and an even one is faint, its cone is the wider.
-  const std::vector<Eigen::Vector3d> corners =
-      coneRound(coneUnder(spectral::DomainSamples::Ones(), pipeline), feasible).corners();
+  const sip::SpectralLocus locus(spec.standardObserver);
   const Eigen::Matrix3d responseFromRgb = transform.responseFromRgb();
   const Eigen::Matrix3d rgbFromResponse = responseFromRgb.inverse();
+  std::vector<Eigen::Vector3d> corners;
+  for (const Eigen::Vector2d& xy : locus.corners()) {
+    corners.emplace_back(responseFromRgb * transform.space().rgbFromXyz() *
+                         Eigen::Vector3d(xy.x(), xy.y(), 1.0 - xy.x() - xy.y()));
+  }
   const std::vector<Eigen::Vector3d> in = spread(corners);
   std::vector<Eigen::Vector3d> out;
   out.reserve(in.size());
@@ -206,7 +182,7 @@ std::vector<ChromaticityPlane> chromaticityPlanes(const sip::TransformSpec& spec
   const Eigen::Vector3d white = Eigen::Vector3d::Ones();
   std::vector<ChromaticityPlane> planes;
   const auto add = [&](const ChromaticityFrame& input, const ChromaticityFrame& output) {
-    ChromaticityPlane plane{input, output, {}, feasible, responseFromRgb};
+    ChromaticityPlane plane{input, output, {}, locus, transform.space().xyzFromRgb()};
     plane.input.fromRgb = input.fromRgb * responseFromRgb;
     plane.white = plane.input.coordinates(white).head<2>();
     planes.push_back(plane);
@@ -215,7 +191,7 @@ std::vector<ChromaticityPlane> chromaticityPlanes(const sip::TransformSpec& spec
   // One axis for both sides, what comes out being taken back through the matrix. The sum of white-normalised responses
   // spreads chromaticities as CIE xy does, which suits the eye; it is turned toward the axis of all colours as far as
   // it must be.
-  const Eigen::FullPivLU<Eigen::Matrix3d> matrix(transform.unconstrainedMatrix());
+  const Eigen::FullPivLU<Eigen::Matrix3d> matrix(transform.linearMatrix());
   if (matrix.isInvertible()) {
     const Eigen::Matrix3d back = responseFromRgb * matrix.inverse();
     std::vector<Eigen::Vector3d> all = in;

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "metamer/sip/feasible_cone.h"
+#include "metamer/sip/spectral_locus.h"
 #include "metamer/sip/spectral_transform.h"
 
 namespace metamer::ocio {
@@ -30,11 +30,14 @@ struct ChromaticityFrame {
 struct ChromaticityPlane {
   ChromaticityFrame input;
   ChromaticityFrame output;
-  Eigen::Vector2d white;            ///< the input's (a, b) of RGB (1, 1, 1)
-  sip::FeasibleCone feasible;       ///< what reflectances can make under the input's light
-  Eigen::Matrix3d responseFromRgb;  ///< to ask it
+  Eigen::Vector2d white;     ///< the input's (a, b) of RGB (1, 1, 1)
+  sip::SpectralLocus locus;  ///< the colours of all lights
+  Eigen::Matrix3d xyzFromRgb;
 
-  bool isFeasible(const Eigen::Vector3d& rgb) const { return feasible.contains(responseFromRgb * rgb); }
+  bool isFeasible(const Eigen::Vector3d& rgb) const {
+    const Eigen::Vector3d xyz = xyzFromRgb * rgb;
+    return xyz.sum() > 0.0 && locus.contains(xyz.head<2>() / xyz.sum());
+  }
 };
 
 /// Planes worth trying for a transform, at least one. They differ in how they stretch chromaticities.

@@ -73,7 +73,7 @@ class Sampler {
     std::vector<double> phase;
     for (int k = first; k < last; ++k) {
       const Eigen::Vector3d in = spreadColour(m_transform.space(), m_rgbFromXyz, k);
-      if (!in.allFinite() || in.minCoeff() < 0.0 || !m_transform.isFeasible(in)) {
+      if (!in.allFinite() || in.minCoeff() < 0.0) {
         continue;
       }
       const Eigen::Vector3d out = m_transform.apply(in);

@@ -19,9 +19,9 @@ struct CubeSample {
   float gain = 1.0F;       ///< from there to the sample's own exposure
 };
 
-/// Colours spread as the error protocol's probes are: chromaticities evenly over the part of the gamut that
-/// reflectances can make under the input light, exposures evenly between two stops round Y = 0.18 and somewhat beyond.
-/// The transform is exact on a chromaticity, and the same at every exposure of it. Ordered by node.
+/// Colours spread as the error protocol's probes are: chromaticities evenly over the gamut, exposures evenly between
+/// two stops round Y = 0.18 and somewhat beyond. The transform is exact on a chromaticity, and the same at every
+/// exposure of it. Ordered by node.
 /// @param axes    of the lattice
 /// @param signal  of its values
 std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, const Signal& axes, const Signal& signal,

@@ -77,16 +77,19 @@ class RecipeReader {
   sip::RecipeScene readScene() const {
     sip::RecipeScene scene;
     const std::string kind = m_values.menu("scene", m_time);
-    if (kind == kDataset || kind == kPrior) {
-      scene.kind = kind == kDataset ? sip::ReferenceScene::Kind::Dataset : sip::ReferenceScene::Kind::Prior;
+    if (kind == kDataset) {
+      scene.kind = sip::ReferenceScene::Kind::Dataset;
       scene.set = m_values.menu("sceneSet", m_time);
       if (scene.set == kFromFile) {
         scene.set = file("sceneFile", "sceneSet");
       }
-    }
-    if (kind == kPrior) {
+    } else if (kind == kSkin) {
+      scene.kind = sip::ReferenceScene::Kind::Skin;
       scene.strength = m_values.number("priorStrength", m_time);
-      scene.radius = m_values.number("priorRadius", m_time);
+    } else if (kind == kNatural || kind == kSmooth) {
+      scene.kind = kind == kSmooth ? sip::ReferenceScene::Kind::Smooth : sip::ReferenceScene::Kind::Natural;
+    } else {
+      throw InputError("", "scene", kind, "is no reference scene any more; choose Natural, Skin, Smooth or Data set");
     }
     return scene;
   }
@@ -116,7 +119,7 @@ class SpectralTransfer final : public Effect {
   explicit SpectralTransfer(const Catalogue& catalogue)
       : Effect({"org.metamer.SpectralTransfer", "Spectral Transfer",
                 "Shows a picture as it would look under another light, behind another filter, or to another observer. "
-                "Each colour is given the smoothest reflectance that explains it under the input light; that "
+                "Each colour is given a likely reflectance that explains it under the input light; that "
                 "reflectance is put under the output light. Exact at any exposure. Pixels in and out are in the "
                 "working space."},
                spectralTransferParameters(catalogue)),
@@ -161,10 +164,9 @@ class SpectralTransfer final : public Effect {
     for (const char* name : {"adaptation", "scene", "space", "cat", "keepExposure"}) {
       values.enable(name, byMenus);
     }
-    values.enable("sceneSet", byMenus && scene != kSmooth);
-    values.enable("sceneFile", byMenus && scene != kSmooth && values.menu("sceneSet", 0) == kFromFile);
-    values.enable("priorStrength", byMenus && scene == kPrior);
-    values.enable("priorRadius", byMenus && scene == kPrior);
+    values.enable("sceneSet", byMenus && scene == kDataset);
+    values.enable("sceneFile", byMenus && scene == kDataset && values.menu("sceneSet", 0) == kFromFile);
+    values.enable("priorStrength", byMenus && scene == kSkin);
   }
 
  private:

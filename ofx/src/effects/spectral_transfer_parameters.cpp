@@ -67,17 +67,17 @@ std::vector<Parameter> spectralTransferParameters(const Catalogue& catalogue) {
 
   const std::string scene = "sceneGroup";
   parameters.push_back(makeGroup(scene, "Objects in the picture", false));
-  parameters.push_back(makeMenu("scene", "Reference scene", scene, {kSmooth, kDataset, kPrior}, kSmooth,
-                                "Which reflectance a colour is taken to have. Smooth: the smoothest that has it. Data "
-                                "set: measured ones, interpolated. Prior: smooth, drawn to measured ones near by."));
+  parameters.push_back(makeMenu("scene", "Reference scene", scene, {kSmooth, kDataset, kNatural, kSkin}, kNatural,
+                                "Which reflectance a colour is taken to have. Natural: smooth, and beyond that as "
+                                "measured surfaces and skins of the colour are. Skin: nearer to skins. Smooth: the "
+                                "smoothest that has it. Data set: measured ones, interpolated."));
   parameters.push_back(makeMenu("sceneSet", "Reflectances", scene, withFirst({kFromFile}, catalogue.reflectanceSets),
-                                "colorchecker", "Measured reflectances, for Data set and Prior."));
+                                "colorchecker", "Measured reflectances, for Data set."));
   parameters.push_back(
       makeFile("sceneFile", "Reflectance file", scene, "CSV of reflectances, where the menu says From file."));
-  parameters.push_back(makeNumber("priorStrength", "Prior strength", scene, 1.0, {0, 1}, {0, 1},
-                                  "0: Smooth; 1: the measured reflectances in full, where there are some."));
-  parameters.push_back(makeNumber("priorRadius", "Prior radius", scene, 0.04, {0.0001, 1}, {0.005, 0.2},
-                                  "How far in CIE xy a measured reflectance reaches."));
+  // Projects hold the strength under the name that it had first.
+  parameters.push_back(makeNumber("priorStrength", "Skin strength", scene, 1.0, {0, 1}, {0, 1},
+                                  "Of Skin. 0: as Natural; 1: as near to measured and modelled skins as can be."));
 
   const std::string colour = "colourGroup";
   parameters.push_back(makeGroup(colour, "Colour", false));

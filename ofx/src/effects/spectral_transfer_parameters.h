@@ -15,7 +15,8 @@ inline constexpr const char* kFromFile = "From file";
 inline constexpr const char* kNoFilter = "None";
 inline constexpr const char* kSmooth = "Smooth";
 inline constexpr const char* kDataset = "Data set";
-inline constexpr const char* kPrior = "Prior";
+inline constexpr const char* kNatural = "Natural";
+inline constexpr const char* kSkin = "Skin";
 inline constexpr const char* kMapQuality = "Map";
 inline constexpr const char* kExactQuality = "Exact";
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "judge/spectral_locus.h"
 #include "metamer/sip/band_weights.h"
+#include "metamer/sip/spectral_locus.h"
 #include "metamer/spectral/colorimetry.h"
 
 namespace metamer::sip {

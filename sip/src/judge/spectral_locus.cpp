@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "judge/spectral_locus.h"
+#include "metamer/sip/spectral_locus.h"
 
 #include <algorithm>
 #include <limits>

@@ -13,9 +13,9 @@ namespace OCIO = OCIO_NAMESPACE;
 
 /// How a spectral transform is put into OCIO operators, from the cheapest on.
 enum class Representation {
-  Identity,                ///< nothing: both pipelines are the same
-  Matrix,                  ///< the unconstrained matrix: exact where no band is clamped
-  LogCube,                 ///< a 3-D table over log-encoded RGB, tetrahedral; clips what the log signal cannot hold
+  Identity,  ///< nothing: both pipelines are the same
+  Matrix,    ///< the linear piece: exact for the smooth scene where no band is clamped and nothing limited
+  LogCube,   ///< a 3-D table over log-encoded RGB, tetrahedral; clips what the log signal cannot hold
   ExposureInvariantChain,  ///< see exposure_invariant_chain.h
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "map/instruction_sets.h"
+#include "vector/instruction_sets.h"
 
 #include <gtest/gtest.h>
 

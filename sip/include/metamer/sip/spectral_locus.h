@@ -16,12 +16,15 @@ class SpectralLocus {
 
   bool contains(const Eigen::Vector2d& xy) const;
 
+  /// Its corners, xy: convex, counter-clockwise.
+  const std::vector<Eigen::Vector2d>& corners() const { return m_corners; }
+
   /// How far it is from a chromaticity inside to the border.
   /// @param direction  of unit length
   double distanceFrom(const Eigen::Vector2d& xy, const Eigen::Vector2d& direction) const;
 
  private:
-  std::vector<Eigen::Vector2d> m_corners;  ///< convex, counter-clockwise
+  std::vector<Eigen::Vector2d> m_corners;
 };
 
 }  // namespace metamer::sip
