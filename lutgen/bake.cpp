@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/ocio/working_space.h"
 #include "metamer/spectral/input_error.h"

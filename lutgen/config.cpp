@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "metamer/ocio/config_writer.h"
+#include "metamer/ocio/log_cube.h"
 
 namespace metamer::lutgen {
 namespace {

@@ -17,7 +17,6 @@ namespace {
 
 using spectral::InputError;
 
-constexpr const char* kChart = "colorchecker";
 /// What a tolerance may ask for by itself: beyond it a table is slow to load and gains little.
 constexpr int kLargestUsual = 65;
 
@@ -40,78 +39,99 @@ Certificate newCertificate(const sip::Recipe& recipe, const spectral::DataLibrar
   return certificate;
 }
 
-struct Made {
-  Operators operators;
-  Certificate certificate;
+/// A recipe on its way into a format: what it was prepared to, what judges it, and its operators.
+class Baking {
+ public:
+  /// Chooses the operators, by tolerance where there is one.
+  Baking(const sip::Recipe& recipe, const spectral::DataLibrary& library, const LutFormat& format,
+         const BakeOptions& options)
+      : m_format(format),
+        m_options(options),
+        m_prepared(prepare(recipe, library, options)),
+        m_probes(probesOf(format, m_prepared, options)),
+        m_protocol(m_prepared.spec, library.reflectances(sip::ErrorProtocol::kChart).samples, m_probes),
+        m_certificate(newCertificate(recipe, library, m_prepared, m_protocol)) {
+    m_certificate.probes = m_probes;
+    choose();
+  }
+
+  /// The error of a transform of the format's pixels.
+  sip::ErrorProtocol::Report measure(const PixelProcessor& processor) const {
+    return m_protocol.measure(Candidate(processor, m_operators.toPixels, m_operators.fromPixels));
+  }
+  sip::ErrorProtocol::Report measure() const { return measure(PixelProcessor(m_operators.group)); }
+
+  const OCIO::GroupTransformRcPtr& group() const { return m_operators.group; }
+  /// Without the error of the result.
+  Certificate& certificate() { return m_certificate; }
+  const Certificate& certificate() const { return m_certificate; }
+
+ private:
+  void choose();
+
+  const LutFormat& m_format;
+  const BakeOptions& m_options;
+  Prepared m_prepared;
+  sip::ErrorProtocol::Options m_probes;
+  sip::ErrorProtocol m_protocol;
+  Certificate m_certificate;
+  Operators m_operators;
 };
 
-/// The operators of a recipe in a format, chosen by tolerance where there is one; without the error of the result.
-Made make(const sip::Recipe& recipe, const spectral::DataLibrary& library, const LutFormat& format,
-          const BakeOptions& options, const Prepared& prepared, const sip::ErrorProtocol::Options& probes,
-          const sip::ErrorProtocol& protocol) {
-  Made made{{}, newCertificate(recipe, library, prepared, protocol)};
-  Certificate& certificate = made.certificate;
-  certificate.probes = probes;
-  const Representation usual = holdsChain(format) ? Representation::ExposureInvariantChain : Representation::LogCube;
-  if (!options.tolerance) {
-    const Representation representation =
-        options.representation.value_or(prepared.transform.isIdentity() ? Representation::Identity : usual);
-    made.operators = operatorsFor(prepared, options, format, representation, certificate);
-    return made;
-  }
-  if (!(*options.tolerance > 0.0) || options.representation) {
-    throw InputError(
-        "", "tolerance", std::to_string(*options.tolerance),
-        options.representation ? "chooses the representation itself; name one or the other" : "must be above 0");
-  }
-  if (prepared.transform.isIdentity()) {
-    made.operators = operatorsFor(prepared, options, format, Representation::Identity, certificate);
-    return made;
-  }
-  BakeOptions tried = options;
-  const int largest = options.size != 0 ? tableSize(options, usual) : kLargestUsual;
-  const auto measure = [&](const Rung& rung) {
-    tried.size = rung.size;
-    made.operators = operatorsFor(prepared, tried, format, rung.representation, certificate);
-    return protocol.measure(
-        Candidate(PixelProcessor(made.operators.group), made.operators.toPixels, made.operators.fromPixels));
+void Baking::choose() {
+  const bool isIdentity = m_prepared.transform.isIdentity();
+  const Representation usual = holdsChain(m_format) ? Representation::ExposureInvariantChain : Representation::LogCube;
+  const auto make = [&](const BakeOptions& options, Representation representation) {
+    m_operators = operatorsFor(m_prepared, options, m_format, representation, m_certificate);
   };
-  certificate.choice = climb(rungsOf(format.content, holdsChain(format), largest), *options.tolerance, measure);
-  return made;
+  if (!m_options.tolerance) {
+    make(m_options, m_options.representation.value_or(isIdentity ? Representation::Identity : usual));
+    return;
+  }
+  if (!(*m_options.tolerance > 0.0) || m_options.representation) {
+    throw InputError(
+        "", "tolerance", std::to_string(*m_options.tolerance),
+        m_options.representation ? "chooses the representation itself; name one or the other" : "must be above 0");
+  }
+  if (isIdentity) {
+    make(m_options, Representation::Identity);
+    return;
+  }
+  BakeOptions tried = m_options;
+  const int largest = m_options.size != 0 ? tableSize(m_options, usual) : kLargestUsual;
+  m_certificate.choice =
+      climb(rungsOf(m_format.content, holdsChain(m_format), largest), *m_options.tolerance, [&](const Rung& rung) {
+        tried.size = rung.size;
+        make(tried, rung.representation);
+        return measure();
+      });
 }
 
-LutDescription descriptionOf(const Certificate& certificate) {
-  return {certificate.recipe.name, "metamer-" + sha256(sip::toYaml(certificate.recipe)).substr(0, 16),
-          certificate.lines()};
+std::string textOf(const Baking& baking, const LutFormat& format, const BakeOptions& options) {
+  const Certificate& certificate = baking.certificate();
+  const LutDescription description{
+      certificate.recipe.name, "metamer-" + sha256(sip::toYaml(certificate.recipe)).substr(0, 16), certificate.lines()};
+  return lutText(format, baking.group(), certificate.size, description, options.shaperSize);
 }
 
 }  // namespace
 
 Baked bake(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options) {
-  const LutFormat& format = lutFormats().front();
-  const Prepared prepared = prepare(recipe, library, options);
-  const sip::ErrorProtocol::Options probes = probesOf(format, prepared, options);
-  const sip::ErrorProtocol protocol(prepared.spec, library.reflectances(kChart).samples, probes);
-  Made made = make(recipe, library, format, options, prepared, probes, protocol);
-  made.certificate.error = protocol.measure(
-      Candidate(PixelProcessor(made.operators.group), made.operators.toPixels, made.operators.fromPixels));
-  return {made.operators.group, std::move(made.certificate)};
+  Baking baking(recipe, library, lutFormats().front(), options);
+  baking.certificate().error = baking.measure();
+  return {baking.group(), std::move(baking.certificate())};
 }
 
 BakedText bakeText(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::string& formatName,
                    const BakeOptions& options) {
   const LutFormat& format = lutFormatNamed(formatName);
-  const Prepared prepared = prepare(recipe, library, options);
-  const sip::ErrorProtocol::Options probes = probesOf(format, prepared, options);
-  const sip::ErrorProtocol protocol(prepared.spec, library.reflectances(kChart).samples, probes);
-  Made made = make(recipe, library, format, options, prepared, probes, protocol);
-  made.certificate.format = format.name;
-  made.certificate.error = protocol.measure(
-      Candidate(PixelProcessor(made.operators.group), made.operators.toPixels, made.operators.fromPixels));
-  std::string text =
-      lutText(format, made.operators.group, made.certificate.size, descriptionOf(made.certificate), options.shaperSize);
-  made.certificate.sha256 = sha256(text);
-  return {std::move(text), std::move(made.certificate)};
+  Baking baking(recipe, library, format, options);
+  Certificate& certificate = baking.certificate();
+  certificate.format = format.name;
+  certificate.error = baking.measure();
+  std::string text = textOf(baking, format, options);
+  certificate.sha256 = sha256(text);
+  return {std::move(text), std::move(certificate)};
 }
 
 Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::filesystem::path& file,
@@ -121,21 +141,15 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   spectral::PendingFile lut(file);
   spectral::PendingFile json(file.string() + ".json");
 
-  const Prepared prepared = prepare(recipe, library, options);
-  const sip::ErrorProtocol::Options probes = probesOf(format, prepared, options);
-  const sip::ErrorProtocol protocol(prepared.spec, library.reflectances(kChart).samples, probes);
-  auto [operators, certificate] = make(recipe, library, format, options, prepared, probes, protocol);
+  Baking baking(recipe, library, format, options);
+  Certificate& certificate = baking.certificate();
   certificate.format = format.name;
-  const auto measure = [&, &made = operators](const PixelProcessor& processor) {
-    return protocol.measure(Candidate(processor, made.toPixels, made.fromPixels));
-  };
   // Twice: what the file says of itself is known before it is written, what the certificate says after.
-  certificate.error = measure(PixelProcessor(operators.group));
-  const std::string text =
-      lutText(format, operators.group, certificate.size, descriptionOf(certificate), options.shaperSize);
+  certificate.error = baking.measure();
+  const std::string text = textOf(baking, format, options);
   lut.write(text);
   certificate.sha256 = sha256(text);
-  certificate.error = measure(PixelProcessor::fromFile(lut.path()));
+  certificate.error = baking.measure(PixelProcessor::fromFile(lut.path()));
   if (options.tolerance && certificate.error.p99 > 1.01 * *options.tolerance) {
     throw InputError(file.string(), "tolerance", std::to_string(*options.tolerance),
                      "is lost in the digits of " + format.name + "; name a format that keeps more");
@@ -143,7 +157,7 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   json.write(certificate.json());
   lut.commit();
   json.commit();
-  return certificate;
+  return std::move(certificate);
 }
 
 std::string convertedLuts(const std::vector<std::filesystem::path>& luts, const LutFormat& format, int size,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bake/bake_operators.h"
 
-#include <algorithm>
-#include <cmath>
-
+#include "bake/table_sizes.h"
 #include "cube/prelut.h"
+#include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/spectral/input_error.h"
-#include "operators/in_order.h"
+#include "operators/chained.h"
+#include "operators/signal_probes.h"
 
 namespace metamer::ocio {
 namespace {
@@ -16,10 +16,6 @@ using spectral::InputError;
 
 /// Bands of the engine behind a baked transform: p99 within 0.13 CIEDE2000 of 401 bands on spiky lamps, 0.05 on others.
 constexpr int kBakeBandCount = 161;
-constexpr int kChainSize = 65;
-constexpr int kCubeSize = 33;
-/// The exposures a cube is judged on: what log footage carries, short of the shaper's last two stops.
-constexpr int kCubeStops = 7;
 
 /// The log curve of a cube's signal: the space's own, else the shaper.
 spectral::LogEncoding cubeEncoding(const WorkingSpace& space, const BakeOptions& options) {
@@ -33,22 +29,13 @@ spectral::LogEncoding cubeEncoding(const WorkingSpace& space, const BakeOptions&
   return options.shaper.value_or(spectral::LogEncoding::AcesCct);
 }
 
-sip::ErrorProtocol::Options cubeProbes(spectral::LogEncoding encoding) {
-  const double stops = std::log2(spectral::decode(encoding, 1.0) / 0.18);
-  sip::ErrorProtocol::Options probes;
-  probes.insideGamutOnly = true;
-  probes.lowestStop = -kCubeStops;
-  probes.highestStop = std::min(kCubeStops, static_cast<int>(std::floor(stops)) - 2);
-  return probes;
-}
-
 /// The signal of a cube: the space's own pixels where they are a log signal, else those through the shaper.
 Signal cubeSignal(const WorkingSpace& space, spectral::LogEncoding encoding) {
   if (space.isLog) {
     return {space.toEngine, space.fromEngine};
   }
-  return {inOrder({shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE), space.toEngine}),
-          inOrder({space.fromEngine, shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD)})};
+  return {chained({shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE), space.toEngine}),
+          chained({space.fromEngine, shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD)})};
 }
 
 }  // namespace
@@ -92,7 +79,7 @@ sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& pr
       throw InputError("", "space", space.name,
                        "is neither linear nor log, which a table needs; name a log space, or write .ctf");
     }
-    probes = cubeProbes(cubeEncoding(space, options));
+    probes = signalProbes(cubeEncoding(space, options));
   }
   probes.lowestStop = options.lowestStop.value_or(probes.lowestStop);
   probes.highestStop = options.highestStop.value_or(probes.highestStop);
@@ -120,7 +107,7 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
   const spectral::LogEncoding encoding = cubeEncoding(space, options);
   const Signal signal = cubeSignal(space, encoding);
   certificate.shaper = space.isLog ? space.name : spectral::nameOf(encoding);
-  OCIO::GroupTransformRcPtr onSignal = inOrder({});
+  OCIO::GroupTransformRcPtr onSignal = chained({});
   if (representation == Representation::LogCube) {
     OCIO::ConstTransformRcPtr curve;
     if (options.fitted && format.holdsPrelut && certificate.size >= kPrelutFromSize) {
@@ -134,16 +121,16 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
                                 .highestStop = static_cast<double>(certificate.probes.highestStop),
                                 .belowZero = format.holdsNegatives,
                                 .prelut = curve});
-    onSignal = inOrder({curve, table});
+    onSignal = chained({curve, table});
   } else if (representation != Representation::Identity) {
     onSignal =
-        inOrder({signal.toEngine, engineOperators(representation, prepared.spec, prepared.transform, certificate.size),
+        chained({signal.toEngine, engineOperators(representation, prepared.spec, prepared.transform, certificate.size),
                  signal.fromEngine});
   }
   if (isCube || space.isLog) {
     return {onSignal, signal.fromEngine, signal.toEngine};
   }
-  return {inOrder({shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD), onSignal,
+  return {chained({shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD), onSignal,
                    shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE)}),
           space.fromEngine, space.toEngine};
 }

@@ -2,18 +2,12 @@
 #include "bake/ladder.h"
 
 #include <algorithm>
-#include <array>
 
+#include "bake/table_sizes.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
-namespace {
-
-constexpr std::array<int, 6> kSizes = {9, 17, 33, 49, 65, 97};
-
-}  // namespace
-
 std::vector<Rung> rungsOf(const LutFormat::Content content, bool holdsChain, int largest) {
   std::vector<Rung> rungs = {{Representation::Identity, 0}};
   if (content == LutFormat::Content::Curves) {
@@ -25,7 +19,7 @@ std::vector<Rung> rungsOf(const LutFormat::Content content, bool holdsChain, int
     rungs.clear();
   }
   const Representation table = holdsChain ? Representation::ExposureInvariantChain : Representation::LogCube;
-  for (const int size : kSizes) {
+  for (const int size : kSizesOfFiles) {
     if (size < largest) {
       rungs.push_back({table, size});
     }

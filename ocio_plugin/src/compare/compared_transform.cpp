@@ -3,7 +3,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -19,25 +18,13 @@
 #include "metamer/spectral/text.h"
 #include "operators/interchange.h"
 #include "operators/matrix_operator.h"
+#include "operators/signal_probes.h"
 
 namespace metamer::ocio {
 namespace {
 
 using spectral::InputError;
 using PixelFunction = std::function<void(std::span<float> rgba)>;
-
-constexpr const char* kChart = "colorchecker";
-/// What log footage carries, short of the curve's last two stops: a file of unknown making is judged on it.
-constexpr int kSignalStops = 7;
-
-sip::ErrorProtocol::Options signalProbes(spectral::LogEncoding encoding) {
-  const double stops = std::log2(spectral::decode(encoding, 1.0) / 0.18);
-  sip::ErrorProtocol::Options probes;
-  probes.insideGamutOnly = true;
-  probes.lowestStop = -kSignalStops;
-  probes.highestStop = std::min(kSignalStops, static_cast<int>(std::floor(stops)) - 2);
-  return probes;
-}
 
 bool holdsSignal(const std::filesystem::path& file) {
   const std::string extension = spectral::lowerCase(file.extension().string());
@@ -211,7 +198,7 @@ sip::Comparison compareTransforms(const ComparedTransform& a, const ComparedTran
   const sip::TransformSpec spec = first.spec    ? *first.spec
                                   : second.spec ? *second.spec
                                                 : sip::resolve(day, library, space);
-  const sip::ErrorProtocol protocol(spec, library.reflectances(kChart).samples, options);
+  const sip::ErrorProtocol protocol(spec, library.reflectances(sip::ErrorProtocol::kChart).samples, options);
   return sip::compareTransforms(space, protocol.probes(), options.lowestStop, options.highestStop, first.apply,
                                 second.apply);
 }

@@ -8,8 +8,10 @@
 #include <map>
 #include <set>
 
+#include "bake/table_sizes.h"
 #include "config/config_spaces.h"
 #include "config/short_tables.h"
+#include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/lut_writer.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
@@ -24,10 +26,7 @@ namespace {
 
 using spectral::InputError;
 
-constexpr const char* kChart = "colorchecker";
-constexpr int kChainSize = 65;
 constexpr double kLargestNeutralGain = 0.02;
-constexpr std::array<int, 8> kTableSizes = {9, 13, 17, 21, 25, 33, 49, 65};
 
 /// Where a recipe's transform stands in a config.
 struct Place {
@@ -167,9 +166,8 @@ sip::ErrorProtocol::Report errorOf(const ConfigCore& core, const CoreUse& use,
   }
   spec.adaptation = use.recipe.adaptation;
   const PixelProcessor processor(group);
-  return sip::ErrorProtocol(spec, library.reflectances(kChart).samples, probes).measure([&](std::span<float> rgba) {
-    processor.apply(rgba);
-  });
+  return sip::ErrorProtocol(spec, library.reflectances(sip::ErrorProtocol::kChart).samples, probes)
+      .measure([&](std::span<float> rgba) { processor.apply(rgba); });
 }
 
 /// The first of nothing, a matrix and tables of rising size that holds a tolerance for all uses; the largest table
@@ -195,7 +193,7 @@ Baked cheapest(const ConfigCore& core, const spectral::DataLibrary& library, int
       return baked;
     }
     options.representation.reset();
-    for (const int nodes : kTableSizes) {
+    for (const int nodes : kSizesOfConfigs) {
       options.size = nodes;
       if (nodes < largest && holds(baked = bake(core.recipe, library, options))) {
         return baked;

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <pugixml.hpp>
 
 namespace metamer::ocio {
 namespace {
@@ -42,23 +43,28 @@ std::string shortLine(const std::string& line) {
 }  // namespace
 
 std::string shortTables(const std::string& ctf) {
-  std::string result;
-  bool isTable = false;
-  bool isArray = false;
-  for (std::size_t begin = 0; begin < ctf.size();) {
-    const std::size_t end = std::min(ctf.find('\n', begin), ctf.size() - 1) + 1;
-    const std::string line = ctf.substr(begin, end - begin);
-    isArray = isArray && line.find("</Array>") == std::string::npos;
-    result += isTable && isArray ? shortLine(line) : line;
-    if (line.find("<LUT1D") != std::string::npos || line.find("<LUT3D") != std::string::npos) {
-      isTable = true;
-    } else if (line.find("</LUT1D>") != std::string::npos || line.find("</LUT3D>") != std::string::npos) {
-      isTable = false;
-    }
-    isArray = isArray || line.find("<Array") != std::string::npos;
-    begin = end;
+  pugi::xml_document document;
+  if (!document.load_buffer(ctf.data(), ctf.size(), pugi::parse_minimal | pugi::parse_fragment, pugi::encoding_utf8)) {
+    return ctf;
   }
-  return result;
+  // Only the lines of numbers change: everything round them stays as OpenColorIO wrote it.
+  pugi::xpath_node_set arrays = document.select_nodes("//LUT1D/Array/text() | //LUT3D/Array/text()");
+  arrays.sort();
+  std::string result;
+  std::size_t done = 0;
+  for (const pugi::xpath_node& array : arrays) {
+    const auto text = static_cast<std::size_t>(array.node().offset_debug());
+    // Whole lines: the first ends the opening tag, the last begins with the closing one.
+    const std::size_t begin = ctf.find('\n', text) + 1;
+    const std::size_t end = ctf.rfind('\n', ctf.find('<', text)) + 1;
+    result.append(ctf, done, begin - done);
+    for (done = begin; done < end;) {
+      const std::size_t next = ctf.find('\n', done) + 1;
+      result += shortLine(ctf.substr(done, next - done));
+      done = next;
+    }
+  }
+  return result.append(ctf, done);
 }
 
 }  // namespace metamer::ocio

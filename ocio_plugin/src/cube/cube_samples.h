@@ -6,7 +6,8 @@
 
 #include "cube/cube_lattice.h"
 #include "metamer/ocio/pixel_processor.h"
-#include "metamer/ocio/representation.h"
+#include "metamer/ocio/signal.h"
+#include "metamer/sip/spectral_transform.h"
 
 namespace metamer::ocio {
 

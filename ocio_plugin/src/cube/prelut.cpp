@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "operators/chained.h"
 #include "operators/grey_ramp.h"
-#include "operators/in_order.h"
 
 namespace metamer::ocio {
 namespace {
@@ -53,7 +53,7 @@ OCIO::Lut1DTransformRcPtr prelut(const Signal& signal, int size, double lowestSt
 Signal behindPrelut(const Signal& signal, const OCIO::ConstTransformRcPtr& prelut) {
   const OCIO::TransformRcPtr back = prelut->createEditableCopy();
   back->setDirection(OCIO::TRANSFORM_DIR_INVERSE);
-  return {inOrder({back, signal.toEngine}), inOrder({signal.fromEngine, prelut})};
+  return {chained({back, signal.toEngine}), chained({signal.fromEngine, prelut})};
 }
 
 OCIO::ConstLut1DTransformRcPtr leadingPrelut(const OCIO::ConstGroupTransformRcPtr& group) {

@@ -3,7 +3,7 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
-#include "metamer/ocio/representation.h"
+#include "metamer/ocio/signal.h"
 
 namespace metamer::ocio {
 

@@ -4,7 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "metamer/ocio/representation.h"
+#include "metamer/ocio/signal.h"
+#include "metamer/sip/spectral_transform.h"
 
 namespace metamer::ocio {
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "metamer/ocio/log_cube.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,7 +11,6 @@
 
 #include "cube/prelut.h"
 #include "metamer/ocio/pixel_processor.h"
-#include "metamer/ocio/representation.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/sip/error_protocol.h"
 #include "metamer/spectral/colorimetry.h"

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "cube/prelut.h"
+#include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/pixel_processor.h"
-#include "metamer/ocio/representation.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/spectral/pending_file.h"
 #include "sip/sip_fixture.h"

@@ -20,6 +20,9 @@ namespace metamer::sip {
 /// to the working white.
 class ErrorProtocol {
  public:
+  /// The reflectance set of data/ that is its chart.
+  static constexpr const char* kChart = "colorchecker";
+
   struct Options {
     int chromaticityCount = 1024;
     int ringCount = 96;

@@ -10,7 +10,7 @@ namespace metamer::ocio {
 namespace OCIO = OCIO_NAMESPACE;
 
 /// Transforms one after the other, as a group of copies; null ones are left out.
-inline OCIO::GroupTransformRcPtr inOrder(std::initializer_list<OCIO::ConstTransformRcPtr> transforms) {
+inline OCIO::GroupTransformRcPtr chained(std::initializer_list<OCIO::ConstTransformRcPtr> transforms) {
   auto group = OCIO::GroupTransform::Create();
   for (const auto& transform : transforms) {
     if (transform) {
