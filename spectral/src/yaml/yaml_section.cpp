@@ -25,7 +25,9 @@ YamlSection::YamlSection(const YamlNode& node, std::string where, std::string pa
                          : std::string()));
   }
   std::set<std::string> seen;
-  for (const auto& [key, value] : node.members) {
+  for (const YamlMember& member : node.members) {
+    const auto& key = member.key;
+    const auto& value = member.value;
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       const auto near = nearNames(key, known, 2);
       throw error(value, "key", named(key),
@@ -39,12 +41,7 @@ YamlSection::YamlSection(const YamlNode& node, std::string where, std::string pa
 }
 
 const YamlNode* YamlSection::find(const std::string& key) const {
-  for (const auto& [name, value] : m_node.members) {
-    if (name == key) {
-      return &value;
-    }
-  }
-  return nullptr;
+  return m_node.find(key);
 }
 
 const YamlNode& YamlSection::require(const std::string& key, const std::string& remedy) const {

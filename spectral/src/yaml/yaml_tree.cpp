@@ -19,11 +19,16 @@ bool isControl(char c) {
   return byte < 0x20 || byte == 0x7F;
 }
 
+std::string placeOf(const std::string& where, const YAML::Mark& mark, const YamlForm& form) {
+  const std::string line = where + ":" + std::to_string(std::max(mark.line, 0) + 1);
+  return form.saysColumns ? line + ":" + std::to_string(std::max(mark.column, 0) + 1) : line;
+}
+
 /// Builds the tree from the parser's events, which come in the order of the text: what is refused is refused before
 /// anything after it is read.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(std::string where, std::string document) : m_where(std::move(where)), m_document(std::move(document)) {}
+  TreeBuilder(const std::string& where, const YamlForm& form) : m_where(where), m_form(form) {}
 
   YamlNode root() && { return std::move(m_root); }
 
@@ -31,7 +36,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { add(mark, "", anchor, YamlNode::Kind::Null); }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    throw error(mark, "alias", "", "aliases are not allowed in a " + m_document + "; write the value out");
+    throw error(mark, "alias", "", "aliases are not allowed in a " + m_form.name + "; write the value out");
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
@@ -45,7 +50,7 @@ class TreeBuilder : public YAML::EventHandler {
       return;
     }
     check(mark, tag, anchor);
-    m_key = value;
+    m_key = {value, {}, mark.line + 1, mark.column + 1};
     m_hasKey = true;
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -62,18 +67,18 @@ class TreeBuilder : public YAML::EventHandler {
  private:
   InputError error(const YAML::Mark& mark, const std::string& field, const std::string& value,
                    const std::string& remedy) const {
-    return InputError(m_where + ":" + std::to_string(std::max(mark.line, 0) + 1), field, value, remedy);
+    return InputError(placeOf(m_where, mark, m_form), field, value, remedy);
   }
 
   void check(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     if (anchor != 0) {
-      throw error(mark, "anchor", "", "anchors are not allowed in a " + m_document + "; write the value out");
+      throw error(mark, "anchor", "", "anchors are not allowed in a " + m_form.name + "; write the value out");
     }
     if (!tag.empty() && tag != "?" && tag != "!") {
-      throw error(mark, "tag", tag, "tags are not allowed in a " + m_document + "; leave it out");
+      throw error(mark, "tag", tag, "tags are not allowed in a " + m_form.name + "; leave it out");
     }
-    if (++m_count > kMostYamlNodes) {
-      throw error(mark, "", "", "more than " + std::to_string(kMostYamlNodes) + " values; this is no " + m_document);
+    if (++m_count > m_form.mostNodes) {
+      throw error(mark, "", "", "more than " + std::to_string(m_form.mostNodes) + " values; this is no " + m_form.name);
     }
   }
 
@@ -82,6 +87,7 @@ class TreeBuilder : public YAML::EventHandler {
     YamlNode node;
     node.kind = kind;
     node.line = mark.line + 1;
+    node.column = mark.column + 1;
     if (m_open.empty()) {
       m_root = std::move(node);
       return m_root;
@@ -94,24 +100,24 @@ class TreeBuilder : public YAML::EventHandler {
       throw error(mark, "key", "", "a key must be a plain word");
     }
     m_hasKey = false;
-    parent.members.push_back({std::move(m_key), std::move(node)});
-    return parent.members.back().value;
+    m_key.value = std::move(node);
+    return parent.members.emplace_back(std::move(m_key)).value;
   }
 
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, YamlNode::Kind kind) {
-    if (m_open.size() >= static_cast<std::size_t>(kDeepestYaml)) {
+    if (m_open.size() >= static_cast<std::size_t>(m_form.deepest)) {
       throw error(mark, "", "",
-                  "nested deeper than " + std::to_string(kDeepestYaml) + " levels; this is no " + m_document);
+                  "nested deeper than " + std::to_string(m_form.deepest) + " levels; this is no " + m_form.name);
     }
     // The parents' children do not move while one of them is open: it is always the last.
     m_open.push_back(&add(mark, tag, anchor, kind));
   }
 
-  std::string m_where;
-  std::string m_document;
+  const std::string& m_where;
+  const YamlForm& m_form;
   YamlNode m_root;
   std::vector<YamlNode*> m_open;
-  std::string m_key;
+  YamlMember m_key;
   bool m_hasKey = false;
   int m_count = 0;
 };
@@ -132,7 +138,13 @@ std::string YamlNode::kindName() const {
   return {};
 }
 
-YamlNode parseYaml(const std::string& text, const std::string& where, const std::string& document) {
+const YamlNode* YamlNode::find(const std::string& key) const {
+  const auto member = std::find_if(members.begin(), members.end(), [&](const YamlMember& m) { return m.key == key; });
+  return member != members.end() ? &member->value : nullptr;
+}
+
+YamlNode parseYaml(const std::string& text, const std::string& where, const YamlForm& form) {
+  const std::string& document = form.name;
   const std::string version = document == "recipe" ? "metamer" : "metamer_" + document;
   const std::string utf8(checkedUtf8(text, where));
   int line = 1;
@@ -143,20 +155,20 @@ YamlNode parseYaml(const std::string& text, const std::string& where, const std:
     }
   }
   std::istringstream stream(utf8);
-  TreeBuilder builder(where, document);
+  TreeBuilder builder(where, form);
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) {
       throw InputError(where, document, "", "is empty; a " + document + " starts with '" + version + ": 1'");
     }
     YamlNode root = std::move(builder).root();
-    TreeBuilder second(where, document);
+    TreeBuilder second(where, form);
     if (parser.HandleNextDocument(second)) {
       throw InputError(where, document, "", "holds more than one document; keep one " + document + " a file");
     }
     return root;
   } catch (const YAML::Exception& error) {
-    throw InputError(where + ":" + std::to_string(std::max(error.mark.line, 0) + 1), "YAML", "", error.msg);
+    throw InputError(placeOf(where, error.mark, form), "YAML", "", error.msg);
   }
 }
 

@@ -31,7 +31,7 @@ bool isSound(const std::array<std::uint32_t, 3>& triangle, const std::vector<std
 
 }  // namespace
 
-Mesh readMesh(const YamlValue& file, const std::filesystem::path& folder) {
+Mesh readMesh(const SceneValue& file, const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / file.text();
   const std::string extension = path.extension().string();
   if (extension != ".obj" && extension != ".ply") {

@@ -19,7 +19,7 @@ struct Pixels {
   std::vector<float> values;
 };
 
-Pixels readPixels(const YamlValue& value, const std::filesystem::path& folder) {
+Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / value.text();
   const auto input = OIIO::ImageInput::open(file.string());
   if (!input) {
@@ -45,7 +45,7 @@ Pixels readPixels(const YamlValue& value, const std::filesystem::path& folder) {
 }
 
 /// Drives from channels, one row an emitter.
-Eigen::MatrixXf readMatrix(const YamlSection& section, std::size_t emitters, const Pixels& pixels) {
+Eigen::MatrixXf readMatrix(const SceneSection& section, std::size_t emitters, const Pixels& pixels) {
   const auto value = section.find("matrix");
   if (!value) {
     if (static_cast<std::size_t>(pixels.channels) < emitters) {
@@ -77,10 +77,10 @@ Eigen::MatrixXf readMatrix(const YamlSection& section, std::size_t emitters, con
   return matrix;
 }
 
-std::vector<SpectrumId> readEmitters(const YamlSection& section, SceneSpectra& spectra) {
+std::vector<SpectrumId> readEmitters(const SceneSection& section, SceneSpectra& spectra) {
   std::vector<SpectrumId> ids;
   if (const auto emitters = section.find("emitters")) {
-    for (const YamlValue& emitter : emitters->items()) {
+    for (const SceneValue& emitter : emitters->items()) {
       ids.push_back(spectra.find(emitter, Use::Emission));
     }
     if (ids.empty()) {
@@ -148,7 +148,7 @@ spectral::DomainSamples smoothestEmission(const Eigen::Vector3d& xyz, const spec
   return (hats * bands).cwiseMax(0.0);
 }
 
-EmitterPicture readPicture(const YamlSection& section, SceneSpectra& spectra) {
+EmitterPicture readPicture(const SceneSection& section, SceneSpectra& spectra) {
   const auto file = section.require("picture", "is missing; name a picture file");
   const Pixels pixels = readPixels(file, spectra.folder());
   EmitterPicture picture;

@@ -39,8 +39,8 @@ Scene readScene(const std::filesystem::path& file, const spectral::DataLibrary& 
 
 Scene parseScene(const std::string& text, const std::string& where, const std::filesystem::path& folder,
                  const spectral::DataLibrary& library) {
-  const YamlSection top(parseYaml(text, where),
-                        {"metamer_scene", "film", "camera", "integrator", "spectra", "shapes", "lights"});
+  const SceneSection top(parseSceneText(text, where),
+                         {"metamer_scene", "film", "camera", "integrator", "spectra", "shapes", "lights"});
   const auto version = top.require("metamer_scene", "is missing; a scene starts with 'metamer_scene: 1'");
   if (!version.isScalar() || version.text() != "1") {
     throw version.error("is a version this release does not read; it reads 1");
@@ -50,12 +50,12 @@ Scene parseScene(const std::string& text, const std::string& where, const std::f
   scene.integrator = readIntegrator(top.find("integrator"));
   SceneSpectra spectra(top.find("spectra"), scene, library, folder);
   if (const auto shapes = top.find("shapes")) {
-    for (const YamlValue& shape : shapes->items()) {
+    for (const SceneValue& shape : shapes->items()) {
       readShape(shape, spectra, scene);
     }
   }
   if (const auto lights = top.find("lights")) {
-    for (const YamlValue& light : lights->items()) {
+    for (const SceneValue& light : lights->items()) {
       readLight(light, spectra, scene);
     }
   }

@@ -15,7 +15,7 @@ using Use = SceneSpectra::Use;
 
 constexpr double kLargestLength = 1e9;
 
-Rectangle readPlace(const YamlSection& section) {
+Rectangle readPlace(const SceneSection& section) {
   const char* remedy = "is missing; a rectangle has center, half_u and half_v";
   Rectangle rectangle;
   rectangle.center = section.require("center", remedy).vector();
@@ -28,14 +28,14 @@ Rectangle readPlace(const YamlSection& section) {
   return rectangle;
 }
 
-void readRectangle(const YamlValue& place, const YamlSection& shape, SceneSpectra& spectra, Scene& scene) {
-  Rectangle rectangle = readPlace(YamlSection(place, {"center", "half_u", "half_v"}));
+void readRectangle(const SceneValue& place, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
+  Rectangle rectangle = readPlace(SceneSection(place, {"center", "half_u", "half_v"}));
   rectangle.surface = readSurface(shape, spectra, scene);
   scene.rectangles.push_back(rectangle);
 }
 
-void readSphere(const YamlValue& place, const YamlSection& shape, SceneSpectra& spectra, Scene& scene) {
-  const YamlSection section(place, {"center", "radius"});
+void readSphere(const SceneValue& place, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
+  const SceneSection section(place, {"center", "radius"});
   Sphere sphere;
   sphere.center = section.require("center", "is missing; a sphere has center and radius").vector();
   sphere.radius = section.require("radius", "is missing; a sphere has center and radius").number(1e-9, kLargestLength);
@@ -43,8 +43,8 @@ void readSphere(const YamlValue& place, const YamlSection& shape, SceneSpectra& 
   scene.spheres.push_back(sphere);
 }
 
-void readChart(const YamlValue& place, const YamlSection& shape, SceneSpectra& spectra, Scene& scene) {
-  const YamlSection section(place, {"center", "half_u", "half_v", "set", "columns", "gap"});
+void readChart(const SceneValue& place, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
+  const SceneSection section(place, {"center", "half_u", "half_v", "set", "columns", "gap"});
   for (const char* key : kSurfaceKeys) {
     if (const auto value = shape.find(key)) {
       throw value->error("", "a chart has the materials of its set; leave this out");
@@ -52,7 +52,7 @@ void readChart(const YamlValue& place, const YamlSection& shape, SceneSpectra& s
   }
   const Rectangle board = readPlace(section);
   const auto set = section.find("set");
-  const std::vector<SpectrumId> patches = spectra.set(set ? *set : YamlValue(YAML::Node("colorchecker"), "", "set"));
+  const std::vector<SpectrumId> patches = spectra.set(set.value_or(SceneValue::ofText("colorchecker", "set")));
   const auto columnsValue = section.find("columns");
   const int columns = columnsValue ? columnsValue->integer(1, 1024) : 6;
   const auto gapValue = section.find("gap");
@@ -71,8 +71,8 @@ void readChart(const YamlValue& place, const YamlSection& shape, SceneSpectra& s
   }
 }
 
-void readLedWall(const YamlValue& place, const YamlSection& shape, SceneSpectra& spectra, Scene& scene) {
-  const YamlSection section(place, {"center", "half_u", "half_v", "picture", "emitters", "matrix", "scale"});
+void readLedWall(const SceneValue& place, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
+  const SceneSection section(place, {"center", "half_u", "half_v", "picture", "emitters", "matrix", "scale"});
   for (const char* key : kSurfaceKeys) {
     if (const auto value = shape.find(key)) {
       throw value->error("", "an LED wall has its picture's light; leave this out");
@@ -86,7 +86,7 @@ void readLedWall(const YamlValue& place, const YamlSection& shape, SceneSpectra&
   scene.rectangles.push_back(wall);
 }
 
-void readMeshShape(const YamlValue& file, const YamlSection& shape, SceneSpectra& spectra, Scene& scene) {
+void readMeshShape(const SceneValue& file, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
   Mesh mesh = readMesh(file, spectra.folder());
   mesh.surface = readSurface(shape, spectra, scene);
   if (mesh.dropped > 0) {
@@ -96,8 +96,8 @@ void readMeshShape(const YamlValue& file, const YamlSection& shape, SceneSpectra
   scene.meshes.push_back(std::move(mesh));
 }
 
-void readPoint(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
-  const YamlSection section(value, {"position", "intensity"});
+void readPoint(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
+  const SceneSection section(value, {"position", "intensity"});
   PointLight light;
   light.position = section.require("position", "is missing; a point light has position and intensity").vector();
   light.intensity =
@@ -105,8 +105,8 @@ void readPoint(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
   scene.points.push_back(light);
 }
 
-void readSpot(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
-  const YamlSection section(value, {"position", "target", "intensity", "cone", "beam"});
+void readSpot(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
+  const SceneSection section(value, {"position", "target", "intensity", "cone", "beam"});
   SpotLight light;
   light.position = section.require("position", "is missing; a spot has position, target and intensity").vector();
   const auto target = section.require("target", "is missing; a spot has position, target and intensity");
@@ -127,11 +127,11 @@ void readSpot(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
   scene.spots.push_back(light);
 }
 
-void readEnvironment(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
+void readEnvironment(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
   if (!scene.environments.empty()) {
     throw value.error("", "is the second one; a scene has one environment");
   }
-  const YamlSection section(value, {"emission", "picture", "emitters", "matrix", "scale"});
+  const SceneSection section(value, {"emission", "picture", "emitters", "matrix", "scale"});
   if (section.find("picture")) {
     if (const auto emission = section.find("emission")) {
       throw emission->error("", "cannot stand beside a picture; leave one out");
@@ -152,9 +152,9 @@ void readEnvironment(const YamlValue& value, SceneSpectra& spectra, Scene& scene
 
 }  // namespace
 
-void readShape(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
-  const YamlSection shape(value, {"rectangle", "sphere", "chart", "mesh", "led_wall", "diffuse", "conductor",
-                                  "dielectric", "gel", "emission"});
+void readShape(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
+  const SceneSection shape(value, {"rectangle", "sphere", "chart", "mesh", "led_wall", "diffuse", "conductor",
+                                   "dielectric", "gel", "emission"});
   int kinds = 0;
   for (const char* kind : {"rectangle", "sphere", "chart", "mesh", "led_wall"}) {
     kinds += shape.find(kind) ? 1 : 0;
@@ -175,8 +175,8 @@ void readShape(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
   }
 }
 
-void readLight(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
-  const YamlSection light(value, {"environment", "point", "spot"});
+void readLight(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
+  const SceneSection light(value, {"environment", "point", "spot"});
   if (light.keys().size() != 1) {
     throw light.error("", "must be one environment, point or spot");
   }

@@ -31,7 +31,7 @@ SpectralQuantity quantityOf(Use use) {
 
 /// Runs a look-up and says in its error where in the scene the name stands.
 template <typename Look>
-auto lookUp(const YamlValue& value, const Look& look) {
+auto lookUp(const SceneValue& value, const Look& look) {
   try {
     return look();
   } catch (const InputError& error) {
@@ -44,11 +44,11 @@ constexpr double kLargestScale = 1e12;
 
 }  // namespace
 
-SceneSpectra::SceneSpectra(const std::optional<YamlValue>& section, Scene& scene, const spectral::DataLibrary& library,
+SceneSpectra::SceneSpectra(const std::optional<SceneValue>& section, Scene& scene, const spectral::DataLibrary& library,
                            std::filesystem::path folder)
     : m_scene(scene), m_library(library), m_folder(std::move(folder)) {
   if (section) {
-    const YamlSection names(*section, {});
+    const SceneSection names(*section, {});
     for (const std::string& name : names.keys()) {
       m_definitions.emplace(name, *names.find(name));
     }
@@ -60,7 +60,7 @@ SpectrumId SceneSpectra::add(const DomainSamples& samples) {
   return static_cast<SpectrumId>(m_scene.spectra.size() - 1);
 }
 
-SpectrumId SceneSpectra::find(const YamlValue& value, Use use) {
+SpectrumId SceneSpectra::find(const SceneValue& value, Use use) {
   const std::string name = value.text();
   const auto known = m_resolved.find({name, use});
   if (known != m_resolved.end()) {
@@ -83,7 +83,7 @@ SpectrumId SceneSpectra::find(const YamlValue& value, Use use) {
   return id;
 }
 
-DomainSamples SceneSpectra::fromLibrary(const YamlValue& value, const std::string& name, Use use) const {
+DomainSamples SceneSpectra::fromLibrary(const SceneValue& value, const std::string& name, Use use) const {
   try {
     if (use == Use::Emission) {
       return m_library.illuminant(name, m_folder).onDomain();
@@ -102,9 +102,9 @@ DomainSamples SceneSpectra::fromLibrary(const YamlValue& value, const std::strin
   throw value.error("no such name under 'spectra:'" + (near.empty() ? "" : "; did you mean '" + near.front() + "'?"));
 }
 
-DomainSamples SceneSpectra::read(const YamlValue& definition, Use use) const {
-  const YamlSection section(definition, {"illuminant", "filter", "density", "reflectance", "sample", "wavelengths",
-                                         "values", "constant", "file", "scale"});
+DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
+  const SceneSection section(definition, {"illuminant", "filter", "density", "reflectance", "sample", "wavelengths",
+                                          "values", "constant", "file", "scale"});
   const auto scaleValue = section.find("scale");
   const double scale = scaleValue ? scaleValue->number(0.0, kLargestScale) : 1.0;
   const auto refuse = [&](bool wrong, const char* what) {
@@ -171,7 +171,7 @@ DomainSamples SceneSpectra::read(const YamlValue& definition, Use use) const {
   return samples * scale;
 }
 
-std::vector<SpectrumId> SceneSpectra::set(const YamlValue& value) {
+std::vector<SpectrumId> SceneSpectra::set(const SceneValue& value) {
   const auto reflectances = lookUp(value, [&] { return m_library.reflectances(value.text(), m_folder); });
   std::vector<SpectrumId> ids;
   for (const Spectrum& sample : reflectances.samples) {

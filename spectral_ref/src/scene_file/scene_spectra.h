@@ -8,7 +8,7 @@
 
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral_ref/scene.h"
-#include "scene_file/yaml_section.h"
+#include "scene_file/scene_value.h"
 
 namespace metamer::spectral_ref {
 
@@ -18,28 +18,28 @@ class SceneSpectra {
  public:
   enum class Use { Emission, Reflectance, Transmittance, Index };
 
-  SceneSpectra(const std::optional<YamlValue>& section, Scene& scene, const spectral::DataLibrary& library,
+  SceneSpectra(const std::optional<SceneValue>& section, Scene& scene, const spectral::DataLibrary& library,
                std::filesystem::path folder);
 
   /// A number (the same at all wavelengths), a name under `spectra:`, or a name that the data library knows for this
   /// use.
-  SpectrumId find(const YamlValue& value, Use use);
+  SpectrumId find(const SceneValue& value, Use use);
   /// Adds a spectrum without a name.
   SpectrumId add(const spectral::DomainSamples& samples);
   /// All samples of a reflectance set.
-  std::vector<SpectrumId> set(const YamlValue& value);
+  std::vector<SpectrumId> set(const SceneValue& value);
 
   const spectral::DataLibrary& library() const { return m_library; }
   const std::filesystem::path& folder() const { return m_folder; }
 
  private:
-  spectral::DomainSamples read(const YamlValue& definition, Use use) const;
-  spectral::DomainSamples fromLibrary(const YamlValue& value, const std::string& name, Use use) const;
+  spectral::DomainSamples read(const SceneValue& definition, Use use) const;
+  spectral::DomainSamples fromLibrary(const SceneValue& value, const std::string& name, Use use) const;
 
   Scene& m_scene;
   const spectral::DataLibrary& m_library;
   std::filesystem::path m_folder;
-  std::map<std::string, YamlValue> m_definitions;
+  std::map<std::string, SceneValue> m_definitions;
   std::map<std::pair<std::string, Use>, SpectrumId> m_resolved;
 };
 

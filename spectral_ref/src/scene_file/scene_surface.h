@@ -9,7 +9,7 @@ namespace metamer::spectral_ref {
 inline constexpr const char* kSurfaceKeys[] = {"diffuse", "conductor", "dielectric", "gel", "emission"};
 
 /// The material and emission of a shape.
-Surface readSurface(const YamlSection& shape, SceneSpectra& spectra, Scene& scene);
+Surface readSurface(const SceneSection& shape, SceneSpectra& spectra, Scene& scene);
 
 /// Adds a diffuse material.
 std::uint32_t addDiffuse(Scene& scene, SpectrumId reflectance);

@@ -203,7 +203,7 @@ StageDescription readStage(const std::filesystem::path& file) {
 }
 
 StageDescription parseStage(const std::string& text, const std::string& where, const std::filesystem::path& folder) {
-  const YamlNode root = spectral::parseYaml(text, where, kDocument);
+  const YamlNode root = spectral::parseYaml(text, where, {.name = kDocument});
   const StageReader reader(where, folder);
   const YamlSection top =
       reader.section(root, "",
