@@ -24,7 +24,7 @@ namespace {
 /// Least squares over some of the columns; nothing where they are dependent.
 bool solveOn(const MatrixXd& matrix, const std::vector<Index>& columns, const VectorXd& target, VectorXd& solution) {
   Eigen::ColPivHouseholderQR<MatrixXd> factors(columnsOf(matrix, columns));
-  factors.setThreshold(kRankTolerance);
+  factors.setThreshold(kDependentBelow);
   if (factors.rank() < static_cast<Index>(columns.size())) {
     return false;
   }

@@ -10,7 +10,7 @@ namespace metamer::stage {
 /// A gradient below this, of unit columns and a unit target, is rounding.
 inline constexpr double kGradientTolerance = 1e-14;
 /// Columns whose part outside the others' span is below this are dependent.
-inline constexpr double kRankTolerance = 1e-12;
+inline constexpr double kDependentBelow = 1e-12;
 /// Rounds a column: far more than is ever needed, so that rounding cannot make a cycle.
 inline constexpr Eigen::Index kMostRounds = 50;
 

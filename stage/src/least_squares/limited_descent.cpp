@@ -125,7 +125,7 @@ class LimitedDescent {
       basis = (Eigen::HouseholderQR<MatrixXd>(power).householderQ() * basis).rightCols(count - 1);
     }
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors(columnsOf(m_matrix, columns) * basis);
-    factors.setThreshold(kRankTolerance);
+    factors.setThreshold(kDependentBelow);
     const VectorXd step = basis * factors.solve(m_target - m_matrix * m_x);
     double length = 1;
     Index blocking = -1;

@@ -45,7 +45,7 @@ VectorXd shortest(const MatrixXd& rows, const VectorXd& values, const VectorXd& 
       continue;
     }
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors(columnsOf(rows, positive));
-    factors.setThreshold(kRankTolerance);
+    factors.setThreshold(kDependentBelow);
     const VectorXd part = factors.solve(values);
     VectorXd x = VectorXd::Zero(count);
     for (std::size_t k = 0; k < positive.size(); ++k) {
@@ -70,7 +70,7 @@ VectorXd shortestMinimiser(const MatrixXd& matrix, const VectorXd& target, const
   const MatrixXd tied = columnsOf(matrix, columns);
   const Eigen::JacobiSVD<MatrixXd> parts(tied, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const VectorXd& sizes = parts.singularValues();
-  const Index rank = (sizes.array() > kRankTolerance * sizes[0]).count();
+  const Index rank = (sizes.array() > kDependentBelow * sizes[0]).count();
   if (rank == tied.cols()) {
     return known;
   }
@@ -86,7 +86,7 @@ VectorXd shortestMinimiser(const MatrixXd& matrix, const VectorXd& target, const
     x[columns[static_cast<std::size_t>(k)]] = part[k];
   }
   const auto distance = [&](const VectorXd& at) { return (matrix * at - target).norm(); };
-  return distance(x) <= distance(known) + kRankTolerance * target.norm() ? x : known;
+  return distance(x) <= distance(known) + kDependentBelow * target.norm() ? x : known;
 }
 
 bool keeps(const DriveLimits& limits, const VectorXd& x) {
@@ -136,7 +136,7 @@ LeastSquaresSolution nonNegativeLeastSquares(const MatrixXd& matrix, const Vecto
   LeastSquaresSolution solution;
   solution.x = solveNonNegative(reduced, reducedTarget);
   const VectorXd sizes = Eigen::JacobiSVD<MatrixXd>(reduced).singularValues();
-  solution.rank = static_cast<int>((sizes.array() > kRankTolerance * sizes[0]).count());
+  solution.rank = static_cast<int>((sizes.array() > kDependentBelow * sizes[0]).count());
   if (solution.rank < count && solution.x.squaredNorm() > 0) {
     solution.x = shortestMinimiser(reduced, reducedTarget, solution.x);
   }

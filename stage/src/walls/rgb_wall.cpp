@@ -21,7 +21,8 @@ constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
 constexpr double kDeadChannel = 1e-6;
 /// Beyond it, the digits of a camera's values do not tell the primaries apart.
 constexpr double kCollinear = 1e4;
-constexpr double kRankTolerance = 1e-9;
+/// Directions of a chart whose size is below this share of the largest are none.
+constexpr double kSingularBelow = 1e-9;
 /// From here on Q's inverse deserves a second look.
 constexpr double kNotableCondition = 10;
 constexpr std::array<double, 5> kTradeOffLimits = {5, 10, 20, 50, 100};
@@ -84,7 +85,7 @@ Matrix3d solveCorrection(const Matrix3Xd& predicted, const Matrix3Xd& target, co
   Eigen::MatrixX3d wanted = ((target - predicted) * roots.asDiagonal()).transpose();
   if (options.heldPatch < 0) {
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors(rows);
-    factors.setThreshold(kRankTolerance);
+    factors.setThreshold(kSingularBelow);
     return Matrix3d::Identity() + factors.solve(wanted).transpose();
   }
   // D = Q - 1 with D p = t - p: the part of D along p is given, the rest is free.
@@ -96,7 +97,7 @@ Matrix3d solveCorrection(const Matrix3Xd& predicted, const Matrix3Xd& target, co
   across = (basis.householderQ() * Matrix3d::Identity()).rightCols<2>();
   wanted -= (rows * along) * step.transpose();
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors(rows * across);
-  factors.setThreshold(kRankTolerance);
+  factors.setThreshold(kSingularBelow);
   const Eigen::MatrixXd rest = factors.solve(wanted);  // 2 x 3
   return Matrix3d::Identity() + step * along.transpose() + rest.transpose() * across.transpose();
 }
