@@ -8,22 +8,13 @@
 #include "geometry/embree_scene.h"
 #include "geometry/geometry.h"
 #include "lights/alias_table.h"
+#include "lights/light_kinds.h"
+#include "lights/light_sample.h"
 #include "lights/light_tree.h"
 #include "metamer/spectral_ref/scene.h"
 #include "wavelengths/lanes.h"
 
 namespace metamer::spectral_ref {
-
-/// A point on a light, seen from a point that it lights.
-struct LightSample {
-  Vec3 direction = Vec3::Zero();  ///< unit, towards the light
-  float distance = 0;             ///< infinite for the environment
-  float pdf = 0;         ///< of the direction, per steradian, choice of the light included; of the choice for a delta
-  bool isDelta = false;  ///< point and spot lights: no ray hits them
-  std::uint32_t emitter = 0;  ///< whose radiance() it is ...
-  std::uint32_t element = 0;
-  float scale = 1;  ///< ... times this (point and spot lights: fall-off with distance and angle)
-};
 
 /// Where on the lights a sample lies, whoever looks at it: what a reservoir keeps.
 struct LightPoint {
@@ -97,10 +88,10 @@ class LightTable {
       }
       return sum;
     };
-    if (source.picture == nullptr) {
-      return ofSpectrum(source.spectrum);
+    if (source.glow.picture == nullptr) {
+      return ofSpectrum(source.glow.spectrum);
     }
-    const EmitterPicture& picture = *source.picture;
+    const EmitterPicture& picture = *source.glow.picture;
     const float* drives = picture.drives.data() + std::size_t{entry - source.first} * picture.emitters.size();
     float sum = 0;
     for (std::size_t k = 0; k < picture.emitters.size(); ++k) {
@@ -114,10 +105,10 @@ class LightTable {
   Lanes<C> radiance(std::uint32_t emitter, std::uint32_t element, const SpectrumTables& spectra,
                     const WavelengthSet<C>& wavelengths) const {
     const Emitter& source = m_emitters[emitter];
-    if (source.picture == nullptr) {
-      return spectra.at(source.spectrum, wavelengths);
+    if (source.glow.picture == nullptr) {
+      return spectra.at(source.glow.spectrum, wavelengths);
     }
-    const EmitterPicture& picture = *source.picture;
+    const EmitterPicture& picture = *source.glow.picture;
     const float* drives = picture.drives.data() + std::size_t{element} * picture.emitters.size();
     Lanes<C> sum = Lanes<C>::Zero();
     for (std::size_t k = 0; k < picture.emitters.size(); ++k) {
@@ -127,42 +118,20 @@ class LightTable {
   }
 
  private:
-  enum class Kind : std::uint8_t { Rectangle, Sphere, Mesh, Environment, Point, Spot };
   struct Emitter {
-    Kind kind = Kind::Rectangle;
+    EmitterKind kind;
+    Glow glow;
     std::uint32_t first = 0;  ///< entry of element 0
-    SpectrumId spectrum = 0;
-    const EmitterPicture* picture = nullptr;
-    Vec3 origin = Vec3::Zero();  ///< corner of a rectangle, centre of a sphere, position
-    Vec3 edgeU = Vec3::Zero();   ///< whole edges of a rectangle; direction of a spot
-    Vec3 edgeV = Vec3::Zero();
-    Vec3 normal = Vec3::Zero();
-    float area = 0;
-    float radius = 0;
-    float cosBeam = 0;
-    float cosCone = 0;
-    double inverseColumns = 1;  ///< of a rectangle's picture
-    float inverseRows = 1;
-    const Mesh* mesh = nullptr;
   };
-  static Eigen::Vector2f onRectangle(const Emitter& emitter, std::uint32_t element, float u, float v);
-  /// From a density over area to one over solid angle.
-  static LightSample onArea(const Vec3& point, const Vec3& normal, float area, const Vec3& from);
-  LightSample onSphere(const Emitter& emitter, const LightPoint& point, const Vec3& from) const;
-  float spherePdf(const Emitter& emitter, const Vec3& from) const;
-  LightSample inEnvironment(const Emitter& emitter, std::uint32_t element, const LightPoint& point) const;
-  void add(const Emitter& emitter, std::size_t elements);
-  void addShapes(const Scene& scene, const EmbreeScene& shapes);
+  const EnvironmentEmitter& environment() const { return std::get<EnvironmentEmitter>(m_emitters[m_environment].kind); }
+  template <typename Kind>
+  void collect(const Scene& scene, const EmbreeScene& shapes);
   std::vector<double> worths(const Scene& scene) const;
-  double powerExtent(const Emitter& emitter, std::uint32_t element) const;
-  LightBounds boundsOf(const Emitter& emitter, std::uint32_t element) const;
-  std::array<Vec3, 4> cornersOf(const Emitter& emitter, std::uint32_t element) const;
 
   std::vector<Emitter> m_emitters;
   std::vector<std::uint32_t> m_emitterOfEntry;
   AliasTable m_choice;
   std::uint32_t m_environment = kNone;
-  float m_sceneRadius = 1;
 };
 
 }  // namespace metamer::spectral_ref
