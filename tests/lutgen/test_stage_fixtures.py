@@ -4,13 +4,14 @@
 import csv
 import itertools
 import json
+import subprocess
 import unittest
 
 import numpy as np
 import OpenEXR
 from scipy.optimize import nnls
 
-from lutgen import LutgenTest, lutgen
+from lutgen import LUTGEN, LutgenTest, lutgen
 from stage_physics import WAVELENGTHS, camera, chart, form_factor, led, light, model, spectra, write_chart, write_spectrum
 
 EMITTERS = ["led:628:14", "led:525:24", "led:460:16", "led:500:22", "led:595:12", "phosphor:450:20:560:120:0.8"]
@@ -72,6 +73,25 @@ class EnvironmentTest(LutgenTest):
             mixed = np.vstack([mixed[:WHITE], np.ones(3), mixed[WHITE + 1 :]])
             theirs = self.expected(self.picture[row, column], mixed)
             self.assertLessEqual(np.abs(ours[row, column] - theirs).max(), 1e-5 * theirs.max())
+
+    def test_the_renderer_has_it_the_same_way_round(self):
+        """Drives of the half of a panorama towards +x, its left: they light what faces +x, not what faces away."""
+        self.picture[:, 16:] = 0
+        self.write()
+        self.drive()
+        light = {}
+        for side in (1, -1):
+            scene = self.folder / "plate.yaml"
+            scene.write_text(
+                "metamer_scene: 1\nfilm: {width: 2, height: 2}\n"
+                f"camera: {{origin: [{9 * side}, 0, 0], target: [0, 0, 0], fov_x: 4}}\n"
+                f"lights: [{{environment: {{picture: drives.exr, emitters: [1, 1, 1, 1, 1, 1]}}}}]\n"
+                f"shapes: [{{rectangle: {{center: [0, 0, 0], half_u: [0, 0, {-side}], half_v: [0, 1, 0]}}, diffuse: 1}}]\n")
+            film = self.folder / "film.exr"
+            subprocess.run([LUTGEN.with_name("spectral_ref"), "render", scene, "-o", film, "--spp", "16"], check=True)
+            light[side] = np.mean(OpenEXR.File(str(film), separate_channels=True).parts[0].channels["G"].pixels)
+        self.assertGreater(light[1], 0)
+        self.assertEqual(light[-1], 0)
 
     def test_threads_change_nothing(self):
         one = self.drive("--threads", 1, scene=("D65.csv@0,0,1", "A.csv@0,1,0"))

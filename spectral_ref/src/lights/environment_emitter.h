@@ -9,8 +9,8 @@
 
 namespace metamer::spectral_ref {
 
-/// A picture infinitely far away, latitude by longitude: +y up, the middle column towards -z, the right-hand side
-/// towards +x. Each pixel is an element, sampled evenly over its solid angle.
+/// A picture infinitely far away, latitude by longitude as OpenEXR has it: +y up, the middle towards +z, +x at a
+/// quarter of the width. Each pixel is an element, sampled evenly over its solid angle.
 struct EnvironmentEmitter : NeverHit {
   const EmitterPicture* picture = nullptr;
   float sceneRadius = 1;
@@ -39,14 +39,14 @@ struct EnvironmentEmitter : NeverHit {
     const float phi = 2.0F * kPi * (column + u) / static_cast<float>(width);
     const float sine = std::sqrt(std::max(0.0F, 1.0F - y * y));
     LightSample sample;
-    sample.direction = Vec3(-sine * std::sin(phi), y, sine * std::cos(phi));
+    sample.direction = Vec3(sine * std::sin(phi), y, -sine * std::cos(phi));
     sample.distance = std::numeric_limits<float>::infinity();
     sample.pdf = static_cast<float>(width) / (2.0F * kPi * (cosTop - cosBottom));
     return sample;
   }
   /// The pixel in a direction.
   std::uint32_t elementTowards(const Vec3& direction) const {
-    float phi = std::atan2(-direction.x(), direction.z()) / (2.0F * kPi);
+    float phi = std::atan2(direction.x(), -direction.z()) / (2.0F * kPi);
     phi -= std::floor(phi);
     const int column = std::min(static_cast<int>(phi * static_cast<float>(picture->width)), picture->width - 1);
     const float theta = std::acos(std::clamp(direction.y(), -1.0F, 1.0F)) * kInversePi;

@@ -56,7 +56,7 @@ TEST_P(EnvironmentTest, EvenLightTimesAlbedo) {
 
 /// Integral of the cosine over a texel that lies wholly before the plate, top left corner at (column, row).
 double cosineIntegral(const Vector3& normal, int column, int row, int width, int height) {
-  // The middle looks along -z, +y is up, and from inside +x lies to the right of the middle.
+  // The middle looks along +z, +y is up, and from inside +x lies to the left of the middle.
   const double a = 2.0 * M_PI * (static_cast<double>(column) / width - 0.5);
   const double b = 2.0 * M_PI * (static_cast<double>(column + 1) / width - 0.5);
   const double top = M_PI * row / height;
@@ -64,7 +64,7 @@ double cosineIntegral(const Vector3& normal, int column, int row, int width, int
   const double squares = 0.5 * (bottom - top) - 0.25 * (std::sin(2.0 * bottom) - std::sin(2.0 * top));  // of the sine
   const double mixed = 0.5 * (std::pow(std::sin(bottom), 2.0) - std::pow(std::sin(top), 2.0));  // sine times cosine
   return normal.dot(
-      Vector3(squares * (std::cos(a) - std::cos(b)), mixed * (b - a), -squares * (std::sin(b) - std::sin(a))));
+      Vector3(-squares * (std::cos(a) - std::cos(b)), mixed * (b - a), squares * (std::sin(b) - std::sin(a))));
 }
 
 TEST_P(EnvironmentTest, OneBrightTexel) {
@@ -76,8 +76,8 @@ TEST_P(EnvironmentTest, OneBrightTexel) {
   };
   // Each quarter of the sphere, near a pole and at the equator, all before their plates.
   for (const auto& [normal, column, row] :
-       {Case{{0, 0, 1}, 3, 5}, Case{{0, 0, -1}, 14, 8}, Case{{0.6, 0, -0.8}, 21, 10}, Case{{0, 0.8, 0.6}, 29, 1},
-        Case{{-1, 0, 0}, 8, 7}, Case{{0, -1, 0}, 17, 14}}) {
+       {Case{{0, 0, -1}, 3, 5}, Case{{0, 0, 1}, 14, 8}, Case{{-0.6, 0, 0.8}, 21, 10}, Case{{0, 0.8, -0.6}, 29, 1},
+        Case{{1, 0, 0}, 8, 7}, Case{{0, -1, 0}, 17, 14}}) {
     std::vector<float> values(std::size_t{kWidth} * kHeight);
     values[static_cast<std::size_t>(row) * kWidth + static_cast<std::size_t>(column)] = 50.0F;
     const auto file = exrFile("environment_test", kWidth, kHeight, 1, values);
@@ -93,10 +93,10 @@ TEST_P(EnvironmentTest, OneBrightTexel) {
 
 TEST_P(EnvironmentTest, ATexelBehindThePlateIsNotSeen) {
   std::vector<float> values(32);
-  values[8 + 4] = 50.0F;  // the middle, along -z
+  values[8 + 4] = 50.0F;  // the middle, along +z
   const auto file = exrFile("environment_test_behind", 8, 4, 1, values);
   const Film film =
-      rendered(sceneOf(plate(Vector3::UnitZ(), "picture: " + file.string() + ", emitters: [1]")), 4, GetParam());
+      rendered(sceneOf(plate(-Vector3::UnitZ(), "picture: " + file.string() + ", emitters: [1]")), 4, GetParam());
   EXPECT_EQ(luminanceOver(film, 0, 0, 16, 16).mean, 0.0);
 }
 

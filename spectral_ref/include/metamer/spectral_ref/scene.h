@@ -124,7 +124,7 @@ struct Mesh {
 };
 
 struct EnvironmentLight {
-  std::uint32_t picture = 0;  ///< latitude-longitude, +y up, centre looks along -z
+  std::uint32_t picture = 0;  ///< latitude by longitude as OpenEXR has it: +y up, middle along +z, +x a quarter in
 };
 struct PointLight {
   Vector3 position;
