@@ -46,6 +46,14 @@ Picture::Picture(const std::filesystem::path& file) : m_pixels(file.string()) {
   m_colours = colourChannels(m_pixels.spec(), file.string());
 }
 
+stage::PictureView Picture::view() const {
+  const OIIO::ImageSpec& spec = m_pixels.spec();
+  const std::size_t count = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
+                            static_cast<std::size_t>(spec.nchannels);
+  return {
+      {static_cast<const float*>(m_pixels.localpixels()), count}, spec.width, spec.height, spec.nchannels, m_colours};
+}
+
 void Picture::changeRow(int row, const std::function<void(std::span<float> rgba)>& body) {
   const OIIO::ImageSpec& spec = m_pixels.spec();
   const auto width = static_cast<std::size_t>(spec.width);

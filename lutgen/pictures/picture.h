@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "metamer/stage/picture_view.h"
+
 namespace metamer::lutgen {
 
 /// Channels R, G, B by name, in whatever order; else the first three.
@@ -38,6 +40,9 @@ class Picture {
   /// Writes it whole or not at all, as float where the format can.
   /// @throws spectral::InputError
   void write(const std::filesystem::path& file) const;
+
+  /// The pixels where they lie, good as long as this is; of a volume the first slice.
+  stage::PictureView view() const;
 
   const OIIO::ImageBuf& pixels() const { return m_pixels; }
   const std::array<int, 3>& colours() const { return m_colours; }

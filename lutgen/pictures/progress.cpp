@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "formatted.h"
+#include "metamer/spectral/formatted.h"
 #include "metamer/spectral/platform.h"
 
 namespace metamer::lutgen {
@@ -29,7 +29,7 @@ void Progress::show(double share) {
   }
   m_last = now;
   m_hasWritten = true;
-  std::cerr << formatted("\r%s %3.0f %%", m_what.c_str(), 100 * share) << std::flush;
+  std::cerr << spectral::formatted("\r%s %3.0f %%", m_what.c_str(), 100 * share) << std::flush;
 }
 
 }  // namespace metamer::lutgen

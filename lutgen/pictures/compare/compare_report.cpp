@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 template <typename... Values>
-std::string formatted(const char* format, Values... values) {
+std::string spectral::formatted(const char* format, Values... values) {
   std::array<char, 256> text{};
   std::snprintf(text.data(), text.size(), format, values...);
   return text.data();
@@ -35,12 +35,13 @@ std::string worstText(const CompareReport& report) {
   if (worst == nullptr) {
     return "none";
   }
-  return formatted("%s at %+.4g stops, rgb %.5g %.5g %.5g", worst->name.c_str(), worst->stop, worst->rgb[0],
-                   worst->rgb[1], worst->rgb[2]);
+  return spectral::formatted("%s at %+.4g stops, rgb %.5g %.5g %.5g", worst->name.c_str(), worst->stop, worst->rgb[0],
+                             worst->rgb[1], worst->rgb[2]);
 }
 
 std::string verdict(const CompareReport& report) {
-  return formatted("%s CIEDE2000 %.4f, tolerance %.4f", report.statistic.c_str(), report.figure(), *report.tolerance);
+  return spectral::formatted("%s CIEDE2000 %.4f, tolerance %.4f", report.statistic.c_str(), report.figure(),
+                             *report.tolerance);
 }
 
 }  // namespace
@@ -52,8 +53,8 @@ double CompareReport::figure() const {
 std::string textOf(const CompareReport& report) {
   const sip::Comparison& comparison = report.comparison;
   std::string text = "A: " + report.kindA + " " + report.nameA + "\nB: " + report.kindB + " " + report.nameB + "\n";
-  text += formatted("CIEDE2000: mean %.4f, p99 %.4f, max %.4f over %zu colours, linear ", comparison.mean,
-                    comparison.p99, comparison.max, comparison.colours.size()) +
+  text += spectral::formatted("CIEDE2000: mean %.4f, p99 %.4f, max %.4f over %zu colours, linear ", comparison.mean,
+                              comparison.p99, comparison.max, comparison.colours.size()) +
           report.space + "\n";
   text += "worst: " + worstText(report) + "\n";
   if (report.tolerance) {

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <sstream>
 
-#include "formatted.h"
+#include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
@@ -130,10 +130,10 @@ std::string LightList::drivesAsCsv(const stage::EnvironmentDriver& driver,
     }
     driver.solve(radiance, directions.col(column), memory, drives.data());
     const Eigen::Vector3d& position = m_lights[i].position;
-    text += m_lights[i].name + formatted(",%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g", position.x(), position.y(),
-                                         position.z(), solidAngle, radiance[0], radiance[1], radiance[2]);
+    text += m_lights[i].name + spectral::formatted(",%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g", position.x(), position.y(),
+                                                   position.z(), solidAngle, radiance[0], radiance[1], radiance[2]);
     for (std::size_t k = 0; k < emitters.size(); ++k) {
-      text += formatted(",%.9g", drives[k]);
+      text += spectral::formatted(",%.9g", drives[k]);
     }
     text += "\n";
   }

@@ -9,17 +9,17 @@
 #include <iostream>
 #include <memory>
 
-#include "formatted.h"
+#include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/stage/environment_drive.h"
+#include "metamer/stage/patch_names.h"
 #include "progress.h"
 #include "stage/chart_picture.h"
 #include "stage/drive_picture.h"
 #include "stage/environment_picture.h"
-#include "stage/fixture.h"
+#include "stage/fixture_options.h"
 #include "stage/light_list.h"
-#include "stage/stage_capture.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
 
@@ -109,7 +109,7 @@ Stage readStageCharts(const EnvironmentOptions& options, const spectral::DataLib
   for (std::size_t d = 0; d < scenes.size(); ++d) {
     sceneCharts.push_back({aligned.charts[options.emitterCharts.size() + d], scenes[d].facing});
   }
-  const int white = patchNamed(aligned.names, options.whitePatch);
+  const int white = stage::patchNamed(aligned.names, options.whitePatch);
   if (white < 0) {
     throw InputError("--white-patch", "patch", options.whitePatch, "is not among the charts' patches, or was left out");
   }
@@ -188,8 +188,8 @@ void drive(const EnvironmentOptions& options) {
     std::cout << "excluded: " << patch.name << ": " << patch.reason << '\n';
   }
   if (unusable > 0) {
-    std::cout << formatted("note: %zu values of the environment are negative or not finite; they count as black\n",
-                           unusable);
+    std::cout << spectral::formatted(
+        "note: %zu values of the environment are negative or not finite; they count as black\n", unusable);
   }
 }
 

@@ -6,12 +6,9 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
-#include "metamer/spectral/spectral_similarity_index.h"
-#include "metamer/stage/emitter_match.h"
 #include "stage/chart_picture.h"
-#include "stage/fixture.h"
-#include "stage/match_outcome.h"
-#include "stage/stage_capture.h"
+#include "stage/fixture_options.h"
+#include "stage/match_report.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
 
@@ -35,136 +32,39 @@ struct MatchOptions {
   std::string output;
 };
 
-struct Materials {
-  std::vector<std::string> names;
-  std::vector<spectral::DomainSamples> samples;
-};
-
-Materials materialsOf(const spectral::ReflectanceSet& set) {
-  Materials materials;
-  for (const spectral::Spectrum& sample : set.samples) {
-    materials.names.push_back(sample.name());
-    materials.samples.push_back(sample.onDomain());
-  }
-  return materials;
+stage::MatchRequest requestOf(const MatchOptions& options, std::size_t emitterCount) {
+  return {options.method, options.weights, limitsOf(options.limits, emitterCount), "--charts"};
 }
 
-Eigen::Matrix3Xd chartUnder(const spectral::DomainSamples& light, const stage::ObserverCurves& curves,
-                            const Materials& materials) {
-  Eigen::Matrix3Xd chart(3, static_cast<Eigen::Index>(materials.samples.size()));
-  for (std::size_t i = 0; i < materials.samples.size(); ++i) {
-    chart.col(static_cast<Eigen::Index>(i)) = curves.transpose() * materials.samples[i].cwiseProduct(light);
-  }
-  return chart;
-}
-
-stage::MatchWeights weightsOf(const MatchOptions& options) {
-  return options.weights == "relative" ? stage::MatchWeights::Relative : stage::MatchWeights::Absolute;
-}
-
-bool isPerceptual(stage::MatchMethod method, const MatchOptions& options) {
-  return method == stage::MatchMethod::MetamericReflectance && options.weights == "perceptual";
-}
-
-stage::MatchSystem systemOf(stage::MatchMethod method, const MatchOptions& options, const Fixture& fixture,
-                            const spectral::DomainSamples& target, const stage::ObserverCurves& curves,
-                            const Materials& materials) {
-  switch (method) {
-    case stage::MatchMethod::Spectral:
-      return stage::spectralSystem(fixture.columns, target);
-    case stage::MatchMethod::MetamericIlluminant:
-      return stage::illuminantSystem(fixture.columns, target, curves);
-    case stage::MatchMethod::MetamericReflectance:
-      break;
-  }
-  return stage::reflectanceSystem(fixture.columns, target, curves, materials.samples, weightsOf(options));
-}
-
-MatchOutcome matchSpectra(const MatchOptions& options, const spectral::DataLibrary& library) {
-  const Fixture fixture = readFixture(options.emitters, library);
+stage::MatchOutcome matchSpectra(const MatchOptions& options, const spectral::DataLibrary& library) {
+  const stage::Fixture fixture = stage::readFixture(options.emitters, library);
   const spectral::Spectrum target = library.illuminant(options.target);
   const spectral::Observer observer = library.observer(options.observer);
-  const Materials materials = materialsOf(library.reflectances(options.reflectances));
-  const stage::ObserverCurves curves = observer.onDomain();
-  const spectral::DomainSamples light = target.onDomain();
-  MatchOutcome outcome;
-  outcome.observer = observer.name;
+  stage::MatchOutcome outcome = stage::matchSpectra(requestOf(options, fixture.names.size()), fixture, target, observer,
+                                                    library.reflectances(options.reflectances).samples,
+                                                    xyzFromResponseUnder(target, observer, library));
   outcome.reflectances = options.reflectances;
-  outcome.emitters = fixture.names;
-  outcome.models = fixture.models;
-  outcome.notes = fixture.notes;
-  outcome.xyzFromResponse = xyzFromResponseUnder(target, observer, library);
-  outcome.white = curves.transpose() * light;
-  const stage::MatchMethod method = stage::matchMethodFromName(options.method);
-  const stage::MatchSystem system = systemOf(method, options, fixture, light, curves, materials);
-  const stage::DriveLimits limits = limitsOf(options.limits, fixture.names.size());
-  if (isPerceptual(method, options)) {
-    const auto illuminant = stage::solveMatch(stage::illuminantSystem(fixture.columns, light, curves), limits);
-    const Eigen::Vector3d white = outcome.white / outcome.white[1];
-    outcome.match = stage::solvePerceptualMatch(system, {outcome.xyzFromResponse, white}, {illuminant.drives}, limits);
-  } else {
-    outcome.match = stage::solveMatch(system, limits);
-  }
-  const spectral::DomainSamples mixed = fixture.columns * outcome.match.drives;
-  outcome.patches = materials.names;
-  outcome.wanted = chartUnder(light, curves, materials);
-  outcome.made = chartUnder(mixed, curves, materials);
-  if (mixed.maxCoeff() > 0) {
-    outcome.spectralSimilarity = spectral::spectralSimilarityIndex(lightOf(mixed), target);
-  }
   return outcome;
 }
 
-/// From pictures alone (section 2.5.2): the chart under each emitter, and under the target.
-MatchOutcome matchCharts(const MatchOptions& options, const spectral::DataLibrary& library) {
-  const stage::MatchMethod method = stage::matchMethodFromName(options.method);
-  if (method == stage::MatchMethod::Spectral) {
+stage::MatchOutcome matchCharts(const MatchOptions& options, const spectral::DataLibrary& library) {
+  if (stage::matchMethodFromName(options.method) == stage::MatchMethod::Spectral) {
     throw InputError("--method", "method", options.method, "needs spectra: give --emitters; charts do for mim and mrm");
   }
   const ChartReader reader({}, library, {});
-  MatchOutcome outcome;
-  std::vector<stage::ChartTable> tables;
+  std::vector<std::string> notes;
+  std::vector<stage::ChartTable> charts;
+  std::vector<std::string> emitters;
   for (const std::string& file : options.charts) {
-    tables.push_back(reader.read({file, {}}, outcome.notes));
-    outcome.emitters.push_back(std::filesystem::path(file).stem().string());
-    outcome.models.push_back(false);
+    charts.push_back(reader.read({file, {}}, notes));
+    emitters.push_back(std::filesystem::path(file).stem().string());
   }
-  tables.push_back(reader.read({options.target, {}}, outcome.notes));
-  auto aligned = stage::alignCharts(tables, std::nullopt);
-  if (aligned.names.empty()) {
-    throw InputError("--charts", "charts", "", "no patch is in all charts with values that can be used");
-  }
-  outcome.excluded = aligned.excluded;
-  outcome.patches = aligned.names;
-  outcome.wanted = aligned.charts.back();
-  aligned.charts.pop_back();
-  Eigen::Index brightest = 0;
-  outcome.wanted.row(1).maxCoeff(&brightest);
-  const int white = patchNamed(aligned.names, "white");
-  const Eigen::Index whitePatch = white >= 0 ? white : brightest;
-  outcome.xyzFromResponse = library.colourSpace(options.colourSpace).linear.xyzFromRgb();
-  outcome.white = outcome.wanted.col(whitePatch);
-  const stage::DriveLimits limits = limitsOf(options.limits, options.charts.size());
-  const auto illuminantMatch = [&] {
-    std::vector<Eigen::Matrix3Xd> whites;
-    for (const Eigen::Matrix3Xd& chart : aligned.charts) {
-      whites.emplace_back(chart.col(whitePatch));
-    }
-    return stage::solveMatch(stage::chartSystem(whites, outcome.wanted.col(whitePatch)), limits);
-  };
-  if (method == stage::MatchMethod::MetamericIlluminant) {
-    outcome.match = illuminantMatch();
-  } else {
-    const auto system = stage::chartSystem(aligned.charts, outcome.wanted, weightsOf(options));
-    outcome.match = isPerceptual(method, options)
-                        ? stage::solvePerceptualMatch(system, {outcome.xyzFromResponse, outcome.white},
-                                                      {illuminantMatch().drives}, limits)
-                        : stage::solveMatch(system, limits);
-  }
-  outcome.made = Eigen::Matrix3Xd::Zero(3, outcome.wanted.cols());
-  for (std::size_t k = 0; k < aligned.charts.size(); ++k) {
-    outcome.made += outcome.match.drives[static_cast<Eigen::Index>(k)] * aligned.charts[k];
-  }
+  const stage::ChartTable target = reader.read({options.target, {}}, notes);
+  stage::MatchOutcome outcome = stage::matchCharts(requestOf(options, charts.size()), charts, target,
+                                                   library.colourSpace(options.colourSpace).linear.xyzFromRgb());
+  outcome.emitters = emitters;
+  outcome.models.assign(emitters.size(), false);
+  outcome.notes = notes;
   outcome.observer = "camera RGB taken for " + options.colourSpace;
   outcome.reflectances = "charts";
   return outcome;
@@ -172,13 +72,13 @@ MatchOutcome matchCharts(const MatchOptions& options, const spectral::DataLibrar
 
 void match(const MatchOptions& options) {
   const auto library = spectral::DataLibrary::openDefault();
-  MatchOutcome outcome = options.charts.empty() ? matchSpectra(options, library) : matchCharts(options, library);
+  stage::MatchOutcome outcome = options.charts.empty() ? matchSpectra(options, library) : matchCharts(options, library);
   outcome.target = options.target;
   outcome.method = options.method;
   if (stage::matchMethodFromName(options.method) == stage::MatchMethod::MetamericReflectance) {
     outcome.weights = options.weights;
   }
-  addReachNotes(outcome);
+  stage::addReachNotes(outcome);
   if (!options.figure.empty()) {
     writeFigure(outcome, library, options.figure);
   }

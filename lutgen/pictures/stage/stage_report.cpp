@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "formatted.h"
+#include "metamer/spectral/formatted.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 std::string matrixRows(const Eigen::Matrix3d& matrix) {
   std::string text;
   for (Eigen::Index row = 0; row < 3; ++row) {
-    text += formatted("    %12.6f %12.6f %12.6f\n", matrix(row, 0), matrix(row, 1), matrix(row, 2));
+    text += spectral::formatted("    %12.6f %12.6f %12.6f\n", matrix(row, 0), matrix(row, 1), matrix(row, 2));
   }
   return text;
 }
@@ -27,23 +27,111 @@ std::string cell(const std::string& name) {
 
 }  // namespace
 
-std::string reportOf(const StageResult& result, const std::string& figure) {
+Json toJson(const stage::StageResult& result) {
+  const stage::WallSolution& solution = result.solution;
+  Json json;
+  json["metamer_stage"] = 1;
+  json["name"] = result.name;
+  json["M"] = rowsToJson(solution.wallFromContent);
+  json["Q"] = rowsToJson(solution.correctedFromCamera);
+  json["N"] = rowsToJson(solution.frustumFromContent);
+  json["beta"] = result.capture.wall.beta;
+  json["offset"] = toJson(solution.frustumOffset);
+  json["primaries"] = rowsToJson(result.capture.wall.cameraFromWall);
+  json["black_level"] = toJson(result.capture.wall.blackLevel);
+  json["environment_white"] = toJson(result.capture.wall.environmentWhite);
+  json["environment_drive"] = toJson(solution.environmentDrive);
+  json["colour_space"] = result.capture.colourSpace;
+  json["condition"] = {{"primaries", numberToJson(solution.wallCondition)},
+                       {"chart", numberToJson(solution.chartCondition)},
+                       {"Q", numberToJson(solution.correctionCondition)}};
+  json["N_bounded"] = solution.bounded;
+  json["N_trade_off"] = Json::array();
+  for (const stage::WallTradeOff& trade : solution.tradeOffs) {
+    json["N_trade_off"].push_back(
+        {{"max_condition", trade.conditionLimit}, {"gain", trade.gain}, {"in_frustum_error", trade.frustumError}});
+  }
+  json["exposure_before"] = result.exposure;
+  json["patches"] = Json::array();
+  for (std::size_t i = 0; i < result.capture.wall.patchNames.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    json["patches"].push_back({{"name", result.capture.wall.patchNames[i]},
+                               {"predicted", toJson(solution.predicted.col(column))},
+                               {"corrected", toJson(solution.corrected.col(column))},
+                               {"target", toJson(result.capture.wall.target.col(column))},
+                               {"dE_before", numberToJson(result.differencesBefore[i])},
+                               {"dE_after", numberToJson(result.differencesAfter[i])}});
+  }
+  const auto summary = [](const stage::DifferenceSummary& differences) {
+    return Json{{"mean", numberToJson(differences.mean)}, {"max", numberToJson(differences.max)}};
+  };
+  json["dE_before"] = summary(result.before);
+  json["dE_after"] = summary(result.after);
+  if (result.spectralSimilarity) {
+    json["SSI"] = *result.spectralSimilarity;
+  }
+  if (!result.capture.skinPatches.empty()) {
+    Json names = Json::array();
+    for (const int patch : result.capture.skinPatches) {
+      names.push_back(result.capture.wall.patchNames[static_cast<std::size_t>(patch)]);
+    }
+    json["skin"] = {
+        {"patches", names}, {"dE_before", summary(result.skinBefore)}, {"dE_after", summary(result.skinAfter)}};
+  }
+  json["excluded"] = Json::array();
+  for (const stage::ExcludedPatch& patch : result.capture.excluded) {
+    json["excluded"].push_back({{"name", patch.name}, {"reason", patch.reason}});
+  }
+  json["notes"] = result.notes;
+  return json;
+}
+
+std::string summaryOf(const stage::StageResult& result) {
+  const stage::WallSolution& solution = result.solution;
+  std::string text =
+      spectral::formatted("%zu patches, beta %.4f, condition numbers: primaries %.3g, chart %.3g, Q %.3g\n",
+                          result.capture.wall.patchNames.size(), result.capture.wall.beta, solution.wallCondition,
+                          solution.chartCondition, solution.correctionCondition);
+  text += spectral::formatted("CIEDE2000, mean and max: M alone %.2f %.2f, M and Q %.2f %.2f\n", result.before.mean,
+                              result.before.max, result.after.mean, result.after.max);
+  if (!result.capture.skinPatches.empty()) {
+    text += spectral::formatted("skin patches: M alone %.2f %.2f, M and Q %.2f %.2f\n", result.skinBefore.mean,
+                                result.skinBefore.max, result.skinAfter.mean, result.skinAfter.max);
+  }
+  if (!solution.tradeOffs.empty()) {
+    text += "N, bounded at a condition number of Q: its gain over M, and the error of in-frustum colours\n";
+    for (const stage::WallTradeOff& trade : solution.tradeOffs) {
+      text += spectral::formatted("  %8.3g  gain %8.3g  error %.3g\n", trade.conditionLimit, trade.gain,
+                                  trade.frustumError);
+    }
+  }
+  for (const stage::ExcludedPatch& patch : result.capture.excluded) {
+    text += "excluded: " + patch.name + ": " + patch.reason + "\n";
+  }
+  for (const std::string& note : result.notes) {
+    text += "note: " + note + "\n";
+  }
+  return text;
+}
+
+std::string reportOf(const stage::StageResult& result, const std::string& figure) {
   const stage::WallSolution& solution = result.solution;
   std::string text = "# LED stage: " + result.name + "\n\n";
-  text += formatted(
+  text += spectral::formatted(
       "Colour differences are CIEDE2000; the camera's RGB is %s. Before: M alone, exposed to the target's "
       "white. After: M, then Q.\n\n",
       result.capture.colourSpace.c_str());
   text += "| patches | before, mean | before, max | after, mean | after, max |\n| --- | --- | --- | --- | --- |\n";
-  text += formatted("| all %zu | %.2f | %.2f | %.2f | %.2f |\n", result.capture.wall.patchNames.size(),
-                    result.before.mean, result.before.max, result.after.mean, result.after.max);
+  text += spectral::formatted("| all %zu | %.2f | %.2f | %.2f | %.2f |\n", result.capture.wall.patchNames.size(),
+                              result.before.mean, result.before.max, result.after.mean, result.after.max);
   if (!result.capture.skinPatches.empty()) {
-    text += formatted("| skin, %zu | %.2f | %.2f | %.2f | %.2f |\n", result.capture.skinPatches.size(),
-                      result.skinBefore.mean, result.skinBefore.max, result.skinAfter.mean, result.skinAfter.max);
+    text +=
+        spectral::formatted("| skin, %zu | %.2f | %.2f | %.2f | %.2f |\n", result.capture.skinPatches.size(),
+                            result.skinBefore.mean, result.skinBefore.max, result.skinAfter.mean, result.skinAfter.max);
   }
   if (result.spectralSimilarity) {
-    text += formatted("\nSpectral similarity index (SSI) of the wall's white to the target light: %.0f\n",
-                      *result.spectralSimilarity);
+    text += spectral::formatted("\nSpectral similarity index (SSI) of the wall's white to the target light: %.0f\n",
+                                *result.spectralSimilarity);
   }
   if (!figure.empty()) {
     text += "\n![Charts as squares in squares](" + figure +
@@ -52,16 +140,16 @@ std::string reportOf(const StageResult& result, const std::string& figure) {
   text += "\n## Matrices\n\nM, out of frustum:\n\n" + matrixRows(solution.wallFromContent) +
           "\nQ, after the camera:\n\n" + matrixRows(solution.correctedFromCamera) + "\nN, in frustum" +
           (solution.bounded ? " (bounded)" : "") + ":\n\n" + matrixRows(solution.frustumFromContent);
-  text += formatted("\nBlack offset after N: %.6f, %.6f, %.6f. beta %.4f.\n\n", solution.frustumOffset[0],
-                    solution.frustumOffset[1], solution.frustumOffset[2], result.capture.wall.beta);
-  text += formatted("Condition numbers: primaries %.3g, chart %.3g, Q %.3g.\n", solution.wallCondition,
-                    solution.chartCondition, solution.correctionCondition);
+  text += spectral::formatted("\nBlack offset after N: %.6f, %.6f, %.6f. beta %.4f.\n\n", solution.frustumOffset[0],
+                              solution.frustumOffset[1], solution.frustumOffset[2], result.capture.wall.beta);
+  text += spectral::formatted("Condition numbers: primaries %.3g, chart %.3g, Q %.3g.\n", solution.wallCondition,
+                              solution.chartCondition, solution.correctionCondition);
   if (!solution.tradeOffs.empty()) {
     text +=
         "\nN by the largest condition number that Q's inverse may have (`q.max_condition`):\n\n"
         "| limit | gain over M | in-frustum error |\n| --- | --- | --- |\n";
     for (const stage::WallTradeOff& trade : solution.tradeOffs) {
-      text += formatted("| %.3g | %.3g | %.3g |\n", trade.conditionLimit, trade.gain, trade.frustumError);
+      text += spectral::formatted("| %.3g | %.3g | %.3g |\n", trade.conditionLimit, trade.gain, trade.frustumError);
     }
   }
   if (!result.notes.empty() || !result.capture.excluded.empty()) {
@@ -75,8 +163,8 @@ std::string reportOf(const StageResult& result, const std::string& figure) {
   }
   text += "\n## Patches\n\n| patch | before | after |\n| --- | --- | --- |\n";
   for (std::size_t i = 0; i < result.capture.wall.patchNames.size(); ++i) {
-    text += formatted("| %s | %.2f | %.2f |\n", cell(result.capture.wall.patchNames[i]).c_str(),
-                      result.differencesBefore[i], result.differencesAfter[i]);
+    text += spectral::formatted("| %s | %.2f | %.2f |\n", cell(result.capture.wall.patchNames[i]).c_str(),
+                                result.differencesBefore[i], result.differencesAfter[i]);
   }
   return text;
 }

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include "formatted.h"
+#include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
@@ -61,7 +61,7 @@ void sample(const SampleOptions& options) {
     const auto rgb = table.rgb.col(static_cast<Eigen::Index>(i));
     text += "\"" + table.names[i] + "\"";
     for (const double value : rgb) {
-      text += std::isfinite(value) ? formatted(",%.9g", value) : std::string(",");
+      text += std::isfinite(value) ? spectral::formatted(",%.9g", value) : std::string(",");
     }
     text += "\n";
   }
@@ -99,16 +99,17 @@ void linearity(const std::string& file, double tolerance, const std::string& out
                        {"hue_drift_degrees", judged.hueDrift},
                        {"tolerance", tolerance}});
   }
-  std::cout << formatted(
+  std::cout << spectral::formatted(
       "%s: farthest from a straight line by %.2f %% of full, at drive %g; exponent %.3f, black %.4g, "
       "hue drift %.2f degrees\n",
       isLinear ? "linear" : "not linear", 100 * judged.deviation, judged.worstDrive, judged.exponent, judged.black,
       judged.hueDrift);
   if (!isLinear) {
-    throw InputError(file, "deviation", formatted("%.4g", judged.deviation),
-                     formatted("is above %.4g: the panel is not linear; send it drives through the inverse of its "
-                               "curve (exponent %.3f), or set it to linear",
-                               tolerance, judged.exponent));
+    throw InputError(
+        file, "deviation", spectral::formatted("%.4g", judged.deviation),
+        spectral::formatted("is above %.4g: the panel is not linear; send it drives through the inverse of its "
+                            "curve (exponent %.3f), or set it to linear",
+                            tolerance, judged.exponent));
   }
 }
 
@@ -120,7 +121,7 @@ void emitter(const std::string& model, const std::string& output) {
   }
   std::string text = "# a model of an emitter, not a measurement\nwavelength_nm," + found->spectrum.name() + "\n";
   for (std::size_t i = 0; i < found->spectrum.values().size(); ++i) {
-    text += formatted("%g,%.9g\n", found->spectrum.wavelengthsNm()[i], found->spectrum.values()[i]);
+    text += spectral::formatted("%g,%.9g\n", found->spectrum.wavelengthsNm()[i], found->spectrum.values()[i]);
   }
   spectral::writeWholeFile(output, text);
 }

@@ -3,13 +3,13 @@
 #include <iostream>
 #include <memory>
 
-#include "formatted.h"
+#include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 #include "metamer/stage/chart_difference.h"
 #include "metamer/stage/emitter_selection.h"
 #include "progress.h"
-#include "stage/fixture.h"
+#include "stage/fixture_options.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
 
@@ -98,7 +98,7 @@ std::vector<Target> targetsOf(const SelectOptions& options, const spectral::Data
   return targets;
 }
 
-std::vector<int> keptOf(const SelectOptions& options, const Fixture& fixture) {
+std::vector<int> keptOf(const SelectOptions& options, const stage::Fixture& fixture) {
   std::vector<int> kept;
   for (const std::string& name : options.kept) {
     const auto found = std::find(fixture.names.begin(), fixture.names.end(), name);
@@ -118,7 +118,7 @@ struct Case {
   Eigen::Matrix3d xyzFromResponse;
 };
 
-std::vector<double> differencesOf(const Case& one, const Fixture& fixture, const stage::EmitterChoice& choice,
+std::vector<double> differencesOf(const Case& one, const stage::Fixture& fixture, const stage::EmitterChoice& choice,
                                   const std::vector<spectral::DomainSamples>& materials) {
   Eigen::MatrixXd matrix(one.selection.system.matrix.rows(), static_cast<Eigen::Index>(choice.emitters.size()));
   for (std::size_t k = 0; k < choice.emitters.size(); ++k) {
@@ -140,7 +140,7 @@ std::vector<double> differencesOf(const Case& one, const Fixture& fixture, const
 
 void select(const SelectOptions& options) {
   const auto library = spectral::DataLibrary::openDefault();
-  const Fixture fixture = readFixture(options.emitters, library);
+  const stage::Fixture fixture = stage::readFixture(options.emitters, library);
   const std::vector<Target> targets = targetsOf(options, library);
   std::vector<spectral::DomainSamples> materials;
   for (const spectral::Spectrum& sample : library.reflectances(options.reflectances).samples) {
@@ -209,8 +209,8 @@ void select(const SelectOptions& options) {
                             {"error", choice.error},
                             {"dE", {{"mean", overall.mean}, {"max", overall.max}}},
                             {"cases", perCase}});
-    std::cout << formatted("%2zu  error %.5f  CIEDE2000 mean %5.2f max %6.2f  %s\n", choice.emitters.size(),
-                           choice.error, overall.mean, overall.max, listed.c_str());
+    std::cout << spectral::formatted("%2zu  error %.5f  CIEDE2000 mean %5.2f max %6.2f  %s\n", choice.emitters.size(),
+                                     choice.error, overall.mean, overall.max, listed.c_str());
   }
   json["notes"] = fixture.notes;
   writeJson(options.output, json);

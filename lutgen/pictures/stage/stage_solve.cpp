@@ -5,11 +5,10 @@
 #include "metamer/ocio/stage_config.h"
 #include "metamer/spectral/pending_file.h"
 #include "stage/chart_figure.h"
-#include "stage/stage_capture.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
+#include "stage/stage_reading.h"
 #include "stage/stage_report.h"
-#include "stage/stage_result.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -25,7 +24,7 @@ struct SolveOptions {
   std::string checkPictures;
 };
 
-ocio::StageMatrices matricesOf(const StageResult& result) {
+ocio::StageMatrices matricesOf(const stage::StageResult& result) {
   return {result.name,
           result.solution.wallFromContent,
           result.solution.frustumFromContent,
@@ -35,7 +34,7 @@ ocio::StageMatrices matricesOf(const StageResult& result) {
           result.capture.xyzFromCamera * result.capture.cameraWhite};
 }
 
-void writeFigure(const StageResult& result, const spectral::DataLibrary& library, const std::string& file) {
+void writeFigure(const stage::StageResult& result, const spectral::DataLibrary& library, const std::string& file) {
   const auto display = library.colourSpace("Rec.709").linear;
   writeChartFigure(
       {{result.capture.wall.target, result.exposure * result.solution.predicted},
@@ -46,7 +45,9 @@ void writeFigure(const StageResult& result, const spectral::DataLibrary& library
 
 void solve(const SolveOptions& options) {
   const auto library = spectral::DataLibrary::openDefault();
-  const StageResult result = solveStage(stage::readStage(options.stage), library, options.checkPictures);
+  const stage::StageDescription description = stage::readStage(options.stage);
+  const stage::StageResult result =
+      stage::solveStage(description, readCapture(description, library, options.checkPictures));
   if (!options.config.empty()) {
     spectral::writeWholeFile(options.config,
                              ocio::stageConfigText(matricesOf(result), library, options.config, options.base));

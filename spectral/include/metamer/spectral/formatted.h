@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-namespace metamer::lutgen {
+namespace metamer::spectral {
 
 /// printf into a string.
 template <typename... Values>
@@ -16,4 +16,4 @@ std::string formatted(const char* format, Values... values) {
   return text;
 }
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::spectral

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/fixture.h"
+#include "stage/fixture_options.h"
 
 #include "metamer/sip/pipeline.h"
 #include "metamer/spectral/input_error.h"
-#include "metamer/stage/emitter_model.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -23,25 +22,6 @@ Eigen::VectorXd spread(const std::vector<double>& values, std::size_t count, con
 }
 
 }  // namespace
-
-Fixture readFixture(const std::vector<std::string>& texts, const spectral::DataLibrary& library) {
-  Fixture fixture;
-  for (const std::string& text : texts) {
-    for (stage::Emitter& emitter : stage::emittersFrom(text, library)) {
-      fixture.names.push_back(emitter.spectrum.name());
-      fixture.models.push_back(emitter.isModel);
-      if (emitter.isModel) {
-        fixture.notes.push_back("emitter '" + fixture.names.back() + "' is a model, not a measurement");
-      }
-      fixture.spectra.push_back(std::move(emitter.spectrum));
-    }
-  }
-  fixture.columns.resize(spectral::kDomainSize, static_cast<Eigen::Index>(fixture.spectra.size()));
-  for (std::size_t k = 0; k < fixture.spectra.size(); ++k) {
-    fixture.columns.col(static_cast<Eigen::Index>(k)) = fixture.spectra[k].onDomain();
-  }
-  return fixture;
-}
 
 void addFixtureLimits(CLI::App& command, FixtureLimits& limits) {
   command.add_option("--limits", limits.largest, "Largest drive: one for all, or one an emitter")->expected(1, 64);
@@ -68,15 +48,6 @@ Eigen::Matrix3d xyzFromResponseUnder(const spectral::Spectrum& light, const spec
     training.push_back(sample.onDomain());
   }
   return sip::prepare({light, {}, observer}, training, library.observer(kStandardObserver)).xyzFromResponse;
-}
-
-spectral::Spectrum lightOf(const spectral::DomainSamples& power) {
-  std::vector<double> wavelengthsNm;
-  for (int nm = spectral::kDomainStartNm; nm <= spectral::kDomainEndNm; ++nm) {
-    wavelengthsNm.push_back(nm);
-  }
-  return {"mixed light", spectral::SpectralQuantity::SpectralPowerDistribution, wavelengthsNm,
-          std::vector<double>(power.begin(), power.end())};
 }
 
 }  // namespace metamer::lutgen

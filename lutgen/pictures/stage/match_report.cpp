@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/match_outcome.h"
+#include "stage/match_report.h"
 
-#include "formatted.h"
+#include "metamer/spectral/formatted.h"
 #include "metamer/stage/chart_difference.h"
 #include "stage/chart_figure.h"
 
@@ -10,27 +10,10 @@ namespace {
 
 /// Patches a row in a picture of the chart.
 constexpr int kColumns = 6;
-/// A colour that is matched but for this is matched.
-constexpr double kMatched = 1e-9;
 
 }  // namespace
 
-std::vector<double> differencesOf(const MatchOutcome& outcome) {
-  return stage::chartDifferences(outcome.made, outcome.wanted, outcome.xyzFromResponse, outcome.white);
-}
-
-void addReachNotes(MatchOutcome& outcome) {
-  for (const int dead : outcome.match.deadEmitters) {
-    outcome.notes.push_back("emitter '" + outcome.emitters[static_cast<std::size_t>(dead)] +
-                            "' gives no light to what is matched; its drive is 0");
-  }
-  if (stage::matchMethodFromName(outcome.method) == stage::MatchMethod::MetamericIlluminant &&
-      outcome.match.relativeResidual > kMatched) {
-    outcome.notes.push_back("the target's colour is out of the emitters' reach: no mixture within the limits has it");
-  }
-}
-
-Json toJson(const MatchOutcome& outcome) {
+Json toJson(const stage::MatchOutcome& outcome) {
   const std::vector<double> differences = differencesOf(outcome);
   const stage::DifferenceSummary summary = stage::summaryOf(differences);
   Json json;
@@ -60,14 +43,15 @@ Json toJson(const MatchOutcome& outcome) {
   return json;
 }
 
-std::string summaryOf(const MatchOutcome& outcome) {
+std::string summaryOf(const stage::MatchOutcome& outcome) {
   std::string text;
   for (std::size_t i = 0; i < outcome.emitters.size(); ++i) {
-    text += formatted("%-30s %.6g\n", outcome.emitters[i].c_str(), outcome.match.drives[static_cast<Eigen::Index>(i)]);
+    text += spectral::formatted("%-30s %.6g\n", outcome.emitters[i].c_str(),
+                                outcome.match.drives[static_cast<Eigen::Index>(i)]);
   }
   const stage::DifferenceSummary summary = stage::summaryOf(differencesOf(outcome));
-  text += formatted("residual %.6g, CIEDE2000 mean %.2f max %.2f\n", outcome.match.relativeResidual, summary.mean,
-                    summary.max);
+  text += spectral::formatted("residual %.6g, CIEDE2000 mean %.2f max %.2f\n", outcome.match.relativeResidual,
+                              summary.mean, summary.max);
   for (const stage::ExcludedPatch& patch : outcome.excluded) {
     text += "excluded: " + patch.name + ": " + patch.reason + "\n";
   }
@@ -77,29 +61,30 @@ std::string summaryOf(const MatchOutcome& outcome) {
   return text;
 }
 
-std::string reportOf(const MatchOutcome& outcome, const std::string& figure) {
+std::string reportOf(const stage::MatchOutcome& outcome, const std::string& figure) {
   const std::vector<double> differences = differencesOf(outcome);
   const stage::DifferenceSummary summary = stage::summaryOf(differences);
   std::string text = "# " + outcome.target + " by " + std::to_string(outcome.emitters.size()) + " emitters\n\n";
   const std::string weights = outcome.weights.empty() ? "" : ", " + outcome.weights + " weights";
-  text += formatted("Method %s%s, observer %s, materials %s. Residual %.6g of the target, condition number %.3g.\n",
-                    outcome.method.c_str(), weights.c_str(), outcome.observer.c_str(), outcome.reflectances.c_str(),
-                    outcome.match.relativeResidual, outcome.match.condition);
+  text += spectral::formatted(
+      "Method %s%s, observer %s, materials %s. Residual %.6g of the target, condition number %.3g.\n",
+      outcome.method.c_str(), weights.c_str(), outcome.observer.c_str(), outcome.reflectances.c_str(),
+      outcome.match.relativeResidual, outcome.match.condition);
   if (outcome.spectralSimilarity) {
-    text += formatted("Spectral similarity index (SSI) %.0f.\n", *outcome.spectralSimilarity);
+    text += spectral::formatted("Spectral similarity index (SSI) %.0f.\n", *outcome.spectralSimilarity);
   }
-  text +=
-      formatted("CIEDE2000: mean %.2f, max %.2f.\n\n| emitter | drive |\n| --- | --- |\n", summary.mean, summary.max);
+  text += spectral::formatted("CIEDE2000: mean %.2f, max %.2f.\n\n| emitter | drive |\n| --- | --- |\n", summary.mean,
+                              summary.max);
   for (std::size_t i = 0; i < outcome.emitters.size(); ++i) {
-    text +=
-        formatted("| %s | %.6g |\n", outcome.emitters[i].c_str(), outcome.match.drives[static_cast<Eigen::Index>(i)]);
+    text += spectral::formatted("| %s | %.6g |\n", outcome.emitters[i].c_str(),
+                                outcome.match.drives[static_cast<Eigen::Index>(i)]);
   }
   if (!figure.empty()) {
     text += "\n![Chart as squares in squares](" + figure + ")\n\n*Ground: the target. Inner square: the emitters.*\n";
   }
   text += "\n| patch | CIEDE2000 |\n| --- | --- |\n";
   for (std::size_t i = 0; i < differences.size(); ++i) {
-    text += formatted("| %s | %.2f |\n", outcome.patches[i].c_str(), differences[i]);
+    text += spectral::formatted("| %s | %.2f |\n", outcome.patches[i].c_str(), differences[i]);
   }
   if (!outcome.notes.empty() || !outcome.excluded.empty()) {
     text += "\n";
@@ -113,7 +98,8 @@ std::string reportOf(const MatchOutcome& outcome, const std::string& figure) {
   return text;
 }
 
-void writeFigure(const MatchOutcome& outcome, const spectral::DataLibrary& library, const std::filesystem::path& file) {
+void writeFigure(const stage::MatchOutcome& outcome, const spectral::DataLibrary& library,
+                 const std::filesystem::path& file) {
   const auto display = library.colourSpace("Rec.709").linear;
   writeChartFigure({{outcome.wanted, outcome.made}}, kColumns,
                    displayFromCamera(outcome.xyzFromResponse, outcome.white, display.rgbFromXyz(), display.whiteXyz()),

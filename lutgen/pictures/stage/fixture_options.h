@@ -6,24 +6,9 @@
 #include <vector>
 
 #include "metamer/spectral/data_library.h"
-#include "metamer/stage/emitter_match.h"
+#include "metamer/stage/fixture.h"
 
 namespace metamer::lutgen {
-
-/// The emitters of a fixture, as a command line names them.
-struct Fixture {
-  std::vector<std::string> names;
-  std::vector<bool> models;  ///< not measured
-  std::vector<spectral::Spectrum> spectra;
-  stage::EmitterColumns columns;
-  std::vector<std::string> notes;
-};
-
-/// @throws spectral::InputError
-Fixture readFixture(const std::vector<std::string>& texts, const spectral::DataLibrary& library);
-
-/// A mixed light as a spectrum.
-spectral::Spectrum lightOf(const spectral::DomainSamples& power);
 
 /// Limits as a command line gives them: none, one for all, or one an emitter.
 struct FixtureLimits {

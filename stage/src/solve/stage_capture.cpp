@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/stage_capture.h"
+#include "metamer/stage/stage_capture.h"
 
 #include <algorithm>
-#include <cctype>
+#include <limits>
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/text.h"
 #include "metamer/stage/emitter_model.h"
+#include "metamer/stage/patch_names.h"
 #include "metamer/stage/stage_geometry.h"
 #include "metamer/stage/wall_spectra.h"
-#include "stage/chart_picture.h"
-#include "stage/environment_picture.h"
-#include "stage/fixture.h"
 
-namespace metamer::lutgen {
+namespace metamer::stage {
 namespace {
 
 using spectral::InputError;
@@ -23,20 +21,9 @@ constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
 /// Taken for the camera's linear RGB where nothing is said of it.
 constexpr const char* kAssumedSpace = "ACEScg";
 
-std::vector<int> patchesWith(const std::vector<std::string>& names, const std::string& word, bool atStart) {
-  std::vector<int> found;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::size_t at = spectral::lowerCase(names[i]).find(spectral::lowerCase(word));
-    if (at != std::string::npos && (!atStart || at == 0)) {
-      found.push_back(static_cast<int>(i));
-    }
-  }
-  return found;
-}
-
-void findWhite(const stage::StageDescription& stage, StageCapture& capture) {
+void findWhite(const StageDescription& description, StageCapture& capture) {
   const auto& names = capture.wall.patchNames;
-  const std::string wanted = stage.whitePatch.empty() ? "white" : stage.whitePatch;
+  const std::string wanted = description.whitePatch.empty() ? "white" : description.whitePatch;
   capture.whitePatch = patchNamed(names, wanted);
   if (capture.whitePatch >= 0) {
     return;
@@ -46,12 +33,12 @@ void findWhite(const stage::StageDescription& stage, StageCapture& capture) {
     capture.wall.target.row(1).maxCoeff(&brightest);
   }
   std::string reason = "is not among the patches";
-  for (const stage::ExcludedPatch& patch : capture.excluded) {
+  for (const ExcludedPatch& patch : capture.excluded) {
     if (spectral::lowerCase(patch.name) == spectral::lowerCase(wanted)) {
       reason = "was left out: " + patch.reason;
     }
   }
-  if (stage.preserveWhite) {
+  if (description.preserveWhite) {
     const auto near = spectral::nearNames(wanted, names, 3);
     std::string remedy = reason + "; q.preserve_white needs it";
     for (const std::string& name : near) {
@@ -60,7 +47,7 @@ void findWhite(const stage::StageDescription& stage, StageCapture& capture) {
     if (near.empty() && brightest >= 0) {
       remedy += "; the brightest patch is '" + names[static_cast<std::size_t>(brightest)] + "'";
     }
-    throw InputError(stage.where, "q.white_patch", wanted, remedy);
+    throw InputError(description.where, "q.white_patch", wanted, remedy);
   }
   if (brightest >= 0) {
     capture.whitePatch = static_cast<int>(brightest);
@@ -69,15 +56,16 @@ void findWhite(const stage::StageDescription& stage, StageCapture& capture) {
   }
 }
 
-void readSpectra(const stage::StageDescription& stage, const spectral::DataLibrary& library, StageCapture& capture) {
-  const stage::StageSpectra& named = *stage.spectra;
-  const spectral::Observer camera = library.observer(named.camera, stage.folder);
-  const spectral::Spectrum target = library.illuminant(named.target, stage.folder);
-  stage::WallSpectra spectra;
+void readSpectra(const StageDescription& description, const spectral::DataLibrary& library,
+                 const XyzFromResponse& xyzFromResponse, StageCapture& capture) {
+  const StageSpectra& named = *description.spectra;
+  const spectral::Observer camera = library.observer(named.camera, description.folder);
+  const spectral::Spectrum target = library.illuminant(named.target, description.folder);
+  WallSpectra spectra;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto emitters = stage::emittersFrom(named.emitters[k], library, stage.folder);
+    const auto emitters = emittersFrom(named.emitters[k], library, description.folder);
     if (emitters.size() != 1) {
-      throw InputError(stage.where, std::string("spectra.emitters.") + kChannels[k], named.emitters[k],
+      throw InputError(description.where, std::string("spectra.emitters.") + kChannels[k], named.emitters[k],
                        "holds " + std::to_string(emitters.size()) + " spectra; give a file with one");
     }
     spectra.emitters[k] = emitters.front().spectrum.onDomain();
@@ -87,60 +75,53 @@ void readSpectra(const stage::StageDescription& stage, const spectral::DataLibra
     }
   }
   spectra.camera = camera.onDomain();
-  spectra.reflectances = library.reflectances(named.reflectances, stage.folder).samples;
+  spectra.reflectances = library.reflectances(named.reflectances, description.folder).samples;
   spectra.target = target.onDomain();
   spectra.beta = capture.wall.beta;
   const double beta = capture.wall.beta;
   const Eigen::Vector3d black = capture.wall.blackLevel;
-  capture.wall = stage::captureOf(spectra);
+  capture.wall = captureOf(spectra);
   capture.wall.beta = beta;
   capture.wall.blackLevel = black;
 
-  capture.xyzFromCamera = xyzFromResponseUnder(target, camera, library);
+  capture.xyzFromCamera = xyzFromResponse(target, camera);
   capture.cameraWhite = capture.wall.environmentWhite;
   capture.spectra = CaptureSpectra{spectra.emitters, target};
   capture.colourSpace = "camera RGB of " + named.camera + " under " + named.target;
 }
 
 void keepPatches(const std::vector<std::string>& unwanted, StageCapture& capture) {
-  std::vector<stage::ChartTable> tables;
+  std::vector<ChartTable> tables;
   for (const Eigen::Matrix3Xd* chart :
        {&capture.wall.charts[0], &capture.wall.charts[1], &capture.wall.charts[2], &capture.wall.target}) {
     tables.push_back({"spectra", capture.wall.patchNames, *chart});
   }
-  auto aligned = stage::alignCharts(tables, std::numeric_limits<double>::infinity(), unwanted);
+  auto aligned = alignCharts(tables, std::numeric_limits<double>::infinity(), unwanted);
   capture.wall.patchNames = std::move(aligned.names);
   capture.excluded = std::move(aligned.excluded);
   capture.wall.target = aligned.charts[3];
   std::copy_n(aligned.charts.begin(), 3, capture.wall.charts.begin());
 }
 
-void readCharts(const stage::StageDescription& stage, const spectral::DataLibrary& library,
-                const std::string& checkPictures, StageCapture& capture) {
+void readCharts(const StageDescription& description, const StageReadings& readings, StageCapture& capture) {
   for (std::size_t k = 0; k < 3; ++k) {
-    capture.wall.cameraFromWall.col(static_cast<Eigen::Index>(k)) = readPrimary(stage.primaries[k]);
+    capture.wall.cameraFromWall.col(static_cast<Eigen::Index>(k)) = readings.primaries[k];
   }
-  const ChartReader reader(stage.layout, library, stage.folder, stage.saturation);
-  const auto checkPicture = [&](const std::string& name) {
-    return checkPictures.empty() ? std::filesystem::path() : std::filesystem::path(checkPictures + "_" + name + ".png");
-  };
-  std::vector<stage::ChartTable> tables;
-  for (std::size_t k = 0; k < 3; ++k) {
-    tables.push_back(reader.read(stage.charts[k], capture.notes, checkPicture(kChannels[k])));
-  }
-  tables.push_back(reader.read(stage.target, capture.notes, checkPicture("target")));
-  for (const stage::ChartTable& table : tables) {
+  capture.notes = readings.notes;
+  const std::vector<ChartTable> tables = {readings.charts[0], readings.charts[1], readings.charts[2], readings.target};
+  for (const ChartTable& table : tables) {
     const auto negatives = (table.rgb.array() < 0).count();
     if (negatives > 0) {
       capture.notes.push_back(table.where + " holds " + std::to_string(negatives) +
                               " negative values (noise below black); they are used as they are");
     }
   }
-  auto aligned = stage::alignCharts(tables, stage.saturation, stage.excluded);
+  auto aligned = alignCharts(tables, description.saturation, description.excluded);
   if (aligned.names.empty()) {
     const std::string reason =
         aligned.excluded.empty() ? "" : "; " + aligned.excluded.front().name + ": " + aligned.excluded.front().reason;
-    throw InputError(stage.where, "charts", "", "no patch is in all four charts with values that can be used" + reason);
+    throw InputError(description.where, "charts", "",
+                     "no patch is in all four charts with values that can be used" + reason);
   }
   capture.wall.patchNames = std::move(aligned.names);
   capture.excluded = std::move(aligned.excluded);
@@ -150,62 +131,54 @@ void readCharts(const stage::StageDescription& stage, const spectral::DataLibrar
 
 }  // namespace
 
-int patchNamed(const std::vector<std::string>& names, const std::string& name) {
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (spectral::lowerCase(names[i]) == spectral::lowerCase(name)) {
-      return static_cast<int>(i);
-    }
-  }
-  const std::vector<int> starting = patchesWith(names, name, true);
-  return starting.size() == 1 ? starting.front() : -1;
-}
-
-StageCapture readCapture(const stage::StageDescription& stage, const spectral::DataLibrary& library,
-                         const std::string& checkPictures) {
+StageCapture captureOf(const StageDescription& description, const spectral::DataLibrary& library,
+                       const XyzFromResponse& xyzFromResponse, const std::optional<StageReadings>& readings,
+                       const std::optional<Eigen::Vector3d>& environmentWhite) {
   StageCapture capture;
-  capture.columns = stage.layout.columns;
-  capture.wall.beta = stage::calibrationSquareBeta(stage.widthM, stage.heightM, stage.distanceM);
-  capture.wall.blackLevel = stage.blackLevel;
-  if (stage.spectra) {
-    readSpectra(stage, library, capture);
-    keepPatches(stage.excluded, capture);
+  capture.columns = description.layout.columns;
+  capture.wall.beta = calibrationSquareBeta(description.widthM, description.heightM, description.distanceM);
+  capture.wall.blackLevel = description.blackLevel;
+  if (description.spectra) {
+    readSpectra(description, library, xyzFromResponse, capture);
+    keepPatches(description.excluded, capture);
   } else {
-    readCharts(stage, library, checkPictures, capture);
+    readCharts(description, readings.value(), capture);
   }
-  if (!stage.colourSpace.empty() || !stage.spectra) {
-    capture.colourSpace = stage.colourSpace.empty() ? kAssumedSpace : stage.colourSpace;
+  if (!description.colourSpace.empty() || !description.spectra) {
+    capture.colourSpace = description.colourSpace.empty() ? kAssumedSpace : description.colourSpace;
     capture.cameraWhite = Eigen::Vector3d::Ones();
     capture.xyzFromCamera = library.colourSpace(capture.colourSpace).linear.xyzFromRgb();
-    if (stage.colourSpace.empty()) {
+    if (description.colourSpace.empty()) {
       capture.notes.push_back(std::string("colour_space is not given: colour differences take the camera's RGB for ") +
                               kAssumedSpace + "; matrices do not depend on it");
     }
   }
-  findWhite(stage, capture);
+  findWhite(description, capture);
   capture.skinPatches = patchesWith(capture.wall.patchNames, "skin", false);
-  if (!stage.skinPatches.empty()) {
+  if (!description.skinPatches.empty()) {
     capture.skinPatches.clear();
-    for (const std::string& name : stage.skinPatches) {
+    for (const std::string& name : description.skinPatches) {
       const int patch = patchNamed(capture.wall.patchNames, name);
       if (patch < 0) {
-        throw InputError(stage.where, "q.skin_patches", name, "is not among the patches, or was left out");
+        throw InputError(description.where, "q.skin_patches", name, "is not among the patches, or was left out");
       }
       capture.skinPatches.push_back(patch);
     }
   }
-  if (stage.environmentWhite) {
-    capture.wall.environmentWhite = *stage.environmentWhite;
-  } else if (!stage.environmentFile.empty()) {
-    capture.wall.environmentWhite = diffuseLight(stage.environmentFile, stage.facing);
-  } else if (!stage.spectra) {
+  if (description.environmentWhite) {
+    capture.wall.environmentWhite = *description.environmentWhite;
+  } else if (environmentWhite) {
+    capture.wall.environmentWhite = *environmentWhite;
+  } else if (!description.spectra) {
     if (capture.whitePatch < 0) {
-      throw InputError(stage.where, "environment.white", "", "is missing, and no white patch is there to take it from");
+      throw InputError(description.where, "environment.white", "",
+                       "is missing, and no white patch is there to take it from");
     }
-    capture.wall.environmentWhite = capture.wall.target.col(capture.whitePatch) / stage.whiteReflectance;
+    capture.wall.environmentWhite = capture.wall.target.col(capture.whitePatch) / description.whiteReflectance;
     capture.notes.push_back("environment is not given: w_avg is the target's white patch, '" +
                             capture.wall.patchNames[static_cast<std::size_t>(capture.whitePatch)] + "'");
   }
   return capture;
 }
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::stage

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stage/stage_reading.h"
+
+#include "stage/chart_picture.h"
+#include "stage/environment_picture.h"
+#include "stage/fixture_options.h"
+
+namespace metamer::lutgen {
+namespace {
+
+constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
+
+stage::StageReadings readFiles(const stage::StageDescription& stage, const spectral::DataLibrary& library,
+                               const std::string& checkPictures) {
+  stage::StageReadings readings;
+  for (std::size_t k = 0; k < 3; ++k) {
+    readings.primaries[k] = readPrimary(stage.primaries[k]);
+  }
+  const ChartReader reader(stage.layout, library, stage.folder, stage.saturation);
+  const auto checkPicture = [&](const std::string& name) {
+    return checkPictures.empty() ? std::filesystem::path() : std::filesystem::path(checkPictures + "_" + name + ".png");
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    readings.charts[k] = reader.read(stage.charts[k], readings.notes, checkPicture(kChannels[k]));
+  }
+  readings.target = reader.read(stage.target, readings.notes, checkPicture("target"));
+  return readings;
+}
+
+}  // namespace
+
+stage::StageCapture readCapture(const stage::StageDescription& stage, const spectral::DataLibrary& library,
+                                const std::string& checkPictures) {
+  std::optional<stage::StageReadings> readings;
+  if (!stage.spectra) {
+    readings = readFiles(stage, library, checkPictures);
+  }
+  std::optional<Eigen::Vector3d> environmentWhite;
+  if (!stage.environmentWhite && !stage.environmentFile.empty()) {
+    environmentWhite = diffuseLight(stage.environmentFile, stage.facing);
+  }
+  const auto xyzFromResponse = [&](const spectral::Spectrum& light, const spectral::Observer& observer) {
+    return xyzFromResponseUnder(light, observer, library);
+  };
+  return stage::captureOf(stage, library, xyzFromResponse, readings, environmentWhite);
+}
+
+}  // namespace metamer::lutgen

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "metamer/spectral/data_library.h"
+#include "metamer/stage/chart_table.h"
+#include "metamer/stage/fixture.h"
+
+namespace metamer::stage {
+
+/// How emitters are matched.
+struct MatchRequest {
+  std::string method = "mrm";        ///< as matchMethodFromName() takes it
+  std::string weights = "absolute";  ///< of mrm: absolute, relative or perceptual
+  DriveLimits limits;
+  std::string where;  ///< what messages call the charts
+};
+
+/// Drives of several emitters, and what the chart looks like in their light.
+struct MatchOutcome {
+  std::string target;
+  std::string method;
+  std::string weights;       ///< of mrm; empty for the others
+  std::string observer;      ///< or what the camera's RGB is
+  std::string reflectances;  ///< or where the charts are from
+  std::vector<std::string> emitters;
+  std::vector<bool> models;  ///< emitters that were not measured
+  EmitterMatch match;
+  std::vector<std::string> patches;
+  Eigen::Matrix3Xd wanted;          ///< the chart in the target light, as the observer responds
+  Eigen::Matrix3Xd made;            ///< in the emitters' light
+  Eigen::Matrix3d xyzFromResponse;  ///< any scale
+  Eigen::Vector3d white;            ///< response to white
+  std::optional<double> spectralSimilarity;
+  std::vector<ExcludedPatch> excluded;
+  std::vector<std::string> notes;
+};
+
+/// CIEDE2000 of each patch.
+std::vector<double> differencesOf(const MatchOutcome& outcome);
+/// What the emitters cannot do, and why; added to the notes.
+void addReachNotes(MatchOutcome& outcome);
+
+/// Drives from spectra (sections 2.4.1 to 2.4.3). Names in the outcome that are the caller's (target, reflectances)
+/// stay empty.
+/// @param xyzFromResponse  of the observer under the target, at any scale
+/// @throws spectral::InputError
+MatchOutcome matchSpectra(const MatchRequest& request, const Fixture& fixture, const spectral::Spectrum& target,
+                          const spectral::Observer& observer, const std::vector<spectral::Spectrum>& materials,
+                          const Eigen::Matrix3d& xyzFromResponse);
+
+/// Drives from pictures alone (section 2.5.2): the chart under each emitter, and under the target. Emitters, observer
+/// and reflectances have no names yet in the outcome.
+/// @throws spectral::InputError: the spectral method, charts without a common patch
+MatchOutcome matchCharts(const MatchRequest& request, std::vector<ChartTable> emitterCharts, const ChartTable& target,
+                         const Eigen::Matrix3d& xyzFromCamera);
+
+}  // namespace metamer::stage

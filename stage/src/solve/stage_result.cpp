@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/stage/stage_result.h"
+
+#include <array>
+#include <utility>
+
+#include "metamer/spectral/formatted.h"
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_similarity_index.h"
+#include "metamer/stage/fixture.h"
+
+namespace metamer::stage {
+namespace {
+
+using spectral::formatted;
+using spectral::InputError;
+
+constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
+/// A drive below this is below zero, not rounding.
+constexpr double kNegativeDrive = -1e-9;
+constexpr std::size_t kMostNamed = 6;
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < kMostNamed; ++i) {
+    text += (i == 0 ? "" : ", ") + names[i];
+  }
+  return names.size() > kMostNamed ? text + " and " + std::to_string(names.size() - kMostNamed) + " more" : text;
+}
+
+WallOptions optionsOf(const StageDescription& description, const StageCapture& capture) {
+  WallOptions options;
+  options.heldPatch = description.preserveWhite ? capture.whitePatch : -1;
+  options.largestCondition = description.largestCondition;
+  options.patchWeights = Eigen::VectorXd::Ones(capture.wall.target.cols());
+  for (const int patch : capture.skinPatches) {
+    options.patchWeights[patch] = description.skinWeight;
+  }
+  if (!(options.patchWeights.maxCoeff() > 0)) {
+    throw InputError("", "q.skin_weight", "0", "leaves no patch with a weight");
+  }
+  return options;
+}
+
+/// Of the wall's mixed light to the target's; nothing where the wall is dark.
+std::optional<double> similarityOf(const CaptureSpectra& spectra, const Eigen::Vector3d& drive) {
+  spectral::DomainSamples mixed = spectral::DomainSamples::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    mixed += drive[static_cast<Eigen::Index>(k)] * spectra.emitters[k];
+  }
+  if (!(mixed.maxCoeff() > 0)) {
+    return std::nullopt;
+  }
+  return spectral::spectralSimilarityIndex(mixedLight(mixed), spectra.target);
+}
+
+/// What the wall cannot do, and why.
+void addReachNotes(StageResult& result) {
+  const WallSolution& solution = result.solution;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double asked = solution.environmentDriveAsked[static_cast<Eigen::Index>(k)];
+    if (asked < kNegativeDrive) {
+      result.notes.push_back(
+          formatted("out of reach: the environment's white asks %.4g of %s, less than none; its colour "
+                    "lies outside the wall's gamut, and 0 is used",
+                    asked, kChannels[k]));
+    }
+  }
+  std::vector<std::string> dark;
+  for (Eigen::Index i = 0; i < result.capture.wall.target.cols(); ++i) {
+    const Eigen::Vector3d drive =
+        solution.frustumFromContent * result.capture.wall.target.col(i) + solution.frustumOffset;
+    if (drive.minCoeff() < kNegativeDrive) {
+      dark.push_back(result.capture.wall.patchNames[static_cast<std::size_t>(i)]);
+    }
+  }
+  if (!dark.empty()) {
+    result.notes.push_back("out of reach: shown in frustum, the target chart's " + listed(dark) +
+                           " ask drives below 0, which are cut: too saturated after Q's inverse, or darker than the "
+                           "black level");
+  }
+  if (solution.chartRank < 3) {
+    result.notes.push_back(
+        formatted("the patches give only %d independent colours of 3: Q is the best fit nearest to the "
+                  "identity; photograph more patches",
+                  solution.chartRank));
+  }
+  if (solution.bounded) {
+    result.notes.push_back(
+        "Q is nearly of rank one (the target light is close to one wavelength): N is bounded by "
+        "q.max_condition, and in-frustum colours lose saturation; see the trade-off");
+  }
+}
+
+}  // namespace
+
+StageResult solveStage(const StageDescription& description, StageCapture capture) {
+  StageResult result;
+  result.name = description.name;
+  result.capture = std::move(capture);
+  try {
+    result.solution = solveWall(result.capture.wall, optionsOf(description, result.capture));
+  } catch (const InputError& error) {
+    throw InputError(description.where, "", "", error.what());
+  }
+  const WallSolution& solution = result.solution;
+  const Eigen::Matrix3Xd& target = result.capture.wall.target;
+  const int white = result.capture.whitePatch;
+  Eigen::Vector3d whiteRgb = result.capture.wall.environmentWhite;
+  if (white >= 0) {
+    whiteRgb = target.col(white);
+    const double predictedGreen = solution.predicted(1, white);
+    result.exposure = predictedGreen > 0 && target(1, white) > 0 ? target(1, white) / predictedGreen : 1;
+  }
+  result.whiteRgb = whiteRgb;
+  if (result.capture.spectra) {
+    result.spectralSimilarity = similarityOf(*result.capture.spectra, solution.environmentDrive);
+  }
+  result.differencesBefore =
+      chartDifferences(result.exposure * solution.predicted, target, result.capture.xyzFromCamera, whiteRgb);
+  result.differencesAfter = chartDifferences(solution.corrected, target, result.capture.xyzFromCamera, whiteRgb);
+  result.before = summaryOf(result.differencesBefore);
+  result.after = summaryOf(result.differencesAfter);
+  result.skinBefore = summaryOf(result.differencesBefore, result.capture.skinPatches);
+  result.skinAfter = summaryOf(result.differencesAfter, result.capture.skinPatches);
+  result.notes = result.capture.notes;
+  addReachNotes(result);
+  return result;
+}
+
+}  // namespace metamer::stage
