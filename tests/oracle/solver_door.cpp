@@ -17,7 +17,7 @@ SmoothestSpectrumSolver solverFor(const double* weights, int bandCount, bool bou
 }  // namespace
 
 /// Solves `count` problems. weights: 3 x bandCount rows; tristimuli: count x 3 rows; prior: bandCount values or null;
-/// spectra: count x bandCount rows out; rounds: per problem, -1 where infeasible, + 1000 where the dual method ran.
+/// spectra: count x bandCount rows out; rounds: one a problem, -1 where infeasible, + 1000 where the dual method ran.
 /// @return seconds spent in the solves
 extern "C" double metamerSolve(const double* weights, int bandCount, int bounded, const double* tristimuli, int count,
                                const double* prior, double* spectra, int* rounds) {

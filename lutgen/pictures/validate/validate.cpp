@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "metamer/spectral/pending_file.h"
+#include "metamer/validation/validation.h"
 #include "picture_commands.h"
-#include "validate/validation.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -17,7 +17,7 @@ struct ValidateArguments {
   std::string recipe;
   std::string json;
   double tolerance = 0.1;
-  ValidationOptions options;
+  validation::ValidationOptions options;
 };
 
 template <typename Patches, typename Member>
@@ -29,24 +29,24 @@ double meanOf(const Patches& patches, Member member) {
   return sum / static_cast<double>(patches.size());
 }
 
-double beyondNoise(const PatchValidation& patch) {
+double beyondNoise(const validation::PatchValidation& patch) {
   return std::max(0.0, patch.total - patch.noise);
 }
 
-nlohmann::ordered_json summary(const SceneValidation& scene) {
+nlohmann::ordered_json summary(const validation::SceneValidation& scene) {
   nlohmann::ordered_json json;
   json["name"] = scene.name;
   json["about"] = scene.about;
-  json["total"] = meanOf(scene.patches, &PatchValidation::total);
+  json["total"] = meanOf(scene.patches, &validation::PatchValidation::total);
   json["beyond_noise"] = meanOf(scene.patches, beyondNoise);
-  json["engine"] = meanOf(scene.patches, &PatchValidation::engine);
-  json["metamerism"] = meanOf(scene.patches, &PatchValidation::metamerism);
+  json["engine"] = meanOf(scene.patches, &validation::PatchValidation::engine);
+  json["metamerism"] = meanOf(scene.patches, &validation::PatchValidation::metamerism);
   if (scene.isInterreflecting) {
     json["interreflection"] = json["engine"].get<double>() - json["metamerism"].get<double>();
   }
-  json["representation"] = meanOf(scene.patches, &PatchValidation::representation);
-  json["noise"] = meanOf(scene.patches, &PatchValidation::noise);
-  for (const PatchValidation& patch : scene.patches) {
+  json["representation"] = meanOf(scene.patches, &validation::PatchValidation::representation);
+  json["noise"] = meanOf(scene.patches, &validation::PatchValidation::noise);
+  for (const validation::PatchValidation& patch : scene.patches) {
     json["patches"].push_back({{"name", patch.name},
                                {"total", patch.total},
                                {"engine", patch.engine},
@@ -57,14 +57,14 @@ nlohmann::ordered_json summary(const SceneValidation& scene) {
   return json;
 }
 
-nlohmann::ordered_json summary(const WallValidation& wall) {
+nlohmann::ordered_json summary(const validation::WallValidation& wall) {
   nlohmann::ordered_json json;
-  json["driven_only"] = meanOf(wall.patches, &WallValidation::Patch::drivenOnly);
-  json["corrected"] = meanOf(wall.patches, &WallValidation::Patch::corrected);
-  json["noise"] = meanOf(wall.patches, &WallValidation::Patch::noise);
+  json["driven_only"] = meanOf(wall.patches, &validation::WallValidation::Patch::drivenOnly);
+  json["corrected"] = meanOf(wall.patches, &validation::WallValidation::Patch::corrected);
+  json["noise"] = meanOf(wall.patches, &validation::WallValidation::Patch::noise);
   json["prediction_error"] = wall.predictionError;
   json["frustum_error"] = wall.frustumError;
-  for (const WallValidation::Patch& patch : wall.patches) {
+  for (const validation::WallValidation::Patch& patch : wall.patches) {
     json["patches"].push_back({{"name", patch.name},
                                {"driven_only", patch.drivenOnly},
                                {"corrected", patch.corrected},
@@ -99,14 +99,14 @@ void run(const ValidateArguments& arguments) {
   if (!arguments.json.empty()) {
     file.emplace(arguments.json);
   }
-  const Validation result = validate(recipe, library, arguments.options);
+  const validation::Validation result = validation::validate(recipe, library, arguments.options);
   nlohmann::ordered_json json;
   json["metamer_validation"] = 1;
   json["recipe"] = sip::toYaml(recipe);
   json["replicates"] = arguments.options.replicates;
   json["samples"] = arguments.options.samples;
   json["seed"] = arguments.options.seed;
-  for (const SceneValidation& scene : result.scenes) {
+  for (const validation::SceneValidation& scene : result.scenes) {
     json["scenes"].push_back(summary(scene));
   }
   json["led_wall"] = summary(result.wall);

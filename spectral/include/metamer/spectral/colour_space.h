@@ -10,7 +10,7 @@
 
 namespace metamer::spectral {
 
-/// A working space: linear RGB, with a log curve per channel where the pixels are encoded.
+/// A working space: linear RGB, with a log curve a channel where the pixels are encoded.
 struct ColourSpace {
   std::string name;
   RgbSpace linear;

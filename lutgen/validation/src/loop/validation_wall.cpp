@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "validate/validation_wall.h"
+#include "loop/validation_wall.h"
 
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "loop/validation_noise.h"
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/stage/emitter_model.h"
 #include "metamer/stage/rgb_wall.h"
 #include "metamer/stage/stage_geometry.h"
-#include "validate/validation_noise.h"
 
-namespace metamer::lutgen {
+namespace metamer::validation {
 namespace {
 
 using Eigen::Matrix3Xd;
@@ -74,4 +74,4 @@ WallValidation validateWall(const Chart& chart, const sip::PreparedPipeline& rea
   return result;
 }
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::validation

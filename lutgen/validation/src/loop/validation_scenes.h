@@ -9,7 +9,7 @@
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral_ref/scene.h"
 
-namespace metamer::lutgen {
+namespace metamer::validation {
 
 /// Flat patches in a plane, seen straight on.
 struct Chart {
@@ -38,4 +38,4 @@ std::vector<Eigen::Matrix3Xd> renderPatches(const spectral_ref::Scene& scene, co
 /// Over the replicates.
 Eigen::Matrix3Xd meanOf(const std::vector<Eigen::Matrix3Xd>& replicates);
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::validation

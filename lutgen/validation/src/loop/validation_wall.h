@@ -3,11 +3,11 @@
 
 #include <array>
 
+#include "loop/validation_scenes.h"
 #include "metamer/sip/pipeline.h"
-#include "validate/validation.h"
-#include "validate/validation_scenes.h"
+#include "metamer/validation/validation.h"
 
-namespace metamer::lutgen {
+namespace metamer::validation {
 
 /// Renders what a stage's calibration takes (the chart under each channel's square, and in the real place: an even
 /// sphere of the pipeline's light), solves M, Q and N, and renders the chart inside the driven wall.
@@ -15,4 +15,4 @@ WallValidation validateWall(const Chart& chart, const sip::PreparedPipeline& rea
                             const spectral::Observer& camera, const std::array<spectral::DomainSamples, 3>& walls,
                             const ValidationOptions& options);
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::validation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "validate/validation_scenes.h"
+#include "loop/validation_scenes.h"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include "metamer/spectral_ref/renderer.h"
 
-namespace metamer::lutgen {
+namespace metamer::validation {
 namespace {
 
 using spectral_ref::Scene;
@@ -154,4 +154,4 @@ Eigen::Matrix3Xd meanOf(const std::vector<Eigen::Matrix3Xd>& replicates) {
   return mean;
 }
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::validation

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "validate/validation.h"
+#include "metamer/validation/validation.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <map>
 
+#include "loop/validation_noise.h"
+#include "loop/validation_scenes.h"
+#include "loop/validation_wall.h"
 #include "metamer/ocio/bake.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/sip/spectral_transform.h"
 #include "metamer/spectral/colorimetry.h"
-#include "validate/validation_noise.h"
-#include "validate/validation_scenes.h"
-#include "validate/validation_wall.h"
 
-namespace metamer::lutgen {
+namespace metamer::validation {
 namespace {
 
 using Eigen::Vector3d;
@@ -202,4 +202,4 @@ Validation validate(const sip::Recipe& recipe, const spectral::DataLibrary& libr
   return result;
 }
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::validation

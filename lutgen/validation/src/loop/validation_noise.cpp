@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "validate/validation_noise.h"
+#include "loop/validation_noise.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral_ref/measure.h"
 
-namespace metamer::lutgen {
+namespace metamer::validation {
 
 double intervalOfMean(const Eigen::Vector3d& lab, const std::vector<Eigen::Vector3d>& differences) {
   const auto count = static_cast<double>(differences.size());
@@ -30,4 +30,4 @@ double intervalOfMean(const Eigen::Vector3d& lab, const std::vector<Eigen::Vecto
   return widest;
 }
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::validation

@@ -8,7 +8,7 @@
 #include "metamer/sip/recipe.h"
 #include "metamer/spectral/data_library.h"
 
-namespace metamer::lutgen {
+namespace metamer::validation {
 
 struct ValidationOptions {
   int replicates = 8;  ///< renders with seeds of their own, at least 3: their spread is the interval
@@ -56,4 +56,4 @@ struct Validation {
 /// @throws spectral::InputError as sip::resolve
 Validation validate(const sip::Recipe& recipe, const spectral::DataLibrary& library, const ValidationOptions& options);
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::validation
