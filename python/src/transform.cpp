@@ -42,9 +42,8 @@ std::pair<NumpyDoubles, NumpyDoubles> linearise(const Transform& transform, nb::
   return {newVector(near.value), newMatrix(near.matrix)};
 }
 
-std::optional<NumpyDoubles> reflectance(const Transform& transform, nb::handle rgb) {
-  const auto found = transform.engine->reflectance(vector3(rgb, "rgb"));
-  return found ? std::optional(newVector(*found)) : std::nullopt;
+NumpyDoubles reflectance(const Transform& transform, nb::handle rgb) {
+  return newVector(transform.engine->reflectance(vector3(rgb, "rgb")));
 }
 
 NumpyDoubles bandCentres(const Transform& transform) {
@@ -56,8 +55,12 @@ nb::dict diagnostics(const Transform& transform) {
   const auto found = transform.engine->diagnostics();
   nb::dict result;
   result["condition_number"] = found.conditionNumber;
-  result["rank"] = found.rank;
-  result["matrix_gain"] = found.matrixGain;
+  result["gain"] = found.gain;
+  result["relaxation"] = found.relaxation;
+  result["reach_up"] = found.reachUp;
+  result["reach_down"] = found.reachDown;
+  result["reach_aside"] = found.reachAside;
+  result["limited_share"] = found.limitedShare;
   return result;
 }
 
@@ -106,15 +109,15 @@ void bindTransform(nb::module_& module) {
       .def_prop_ro("bands", [](const Transform& self) { return self.engine->bandCount(); })
       .def_prop_ro("wavelengths", &bandCentres, "Centres of the bands, nm.")
       .def_prop_ro(
-          "matrix", [](const Transform& self) { return newMatrix(self.engine->unconstrainedMatrix()); },
-          "3 x 3, on linear RGB: the transform where no bound of the reflectances bites.")
+          "matrix", [](const Transform& self) { return newMatrix(self.engine->linearMatrix()); },
+          "3 x 3, on linear RGB: the transform of the smooth scene where no bound and no limit bites.")
       .def("linearise", &linearise, "rgb"_a,
            nb::sig("def linearise(self, rgb: numpy.typing.ArrayLike) -> tuple[numpy.typing.NDArray[numpy.float64], "
                    "numpy.typing.NDArray[numpy.float64]]"),
            "Result for a linear colour, and the transform's derivative there, 3 x 3.")
       .def("reflectance", &reflectance, "rgb"_a,
-           nb::sig("def reflectance(self, rgb: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64] | None"),
-           "The reflectance given to a linear colour, at `wavelengths`; None where no reflectance makes it.")
+           nb::sig("def reflectance(self, rgb: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
+           "The spectrum given to a linear colour, at `wavelengths`: below zero where no reflectance makes the colour.")
       .def_prop_ro(
           "response_from_rgb", [](const Transform& self) { return newMatrix(self.engine->responseFromRgb()); },
           "3 x 3: the input side's response from linear RGB, white at (1, 1, 1).")
@@ -122,8 +125,10 @@ void bindTransform(nb::module_& module) {
           "white_xyz", [](const Transform& self) { return newVector(self.engine->whiteXyz()); },
           "White of the working space, Y = 1.")
       .def_prop_ro("diagnostics", &diagnostics, nb::sig("def diagnostics(self) -> dict[str, float]"),
-                   "`condition_number` of the input weights, `rank` (channels that the input light tells apart),\n"
-                   "`matrix_gain` (largest singular value of `matrix`).");
+                   "`condition_number` of the input weights, `gain` (95th percentile over measured surfaces), "
+                   "`relaxation` (0: colours\n"
+                   "are met exactly), `reach_up`, `reach_down`, `reach_aside` (limits round plain adaptation) and\n"
+                   "`limited_share` of the surfaces.");
 }
 
 }  // namespace metamer::python

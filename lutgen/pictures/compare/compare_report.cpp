@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare/compare_report.h"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <sstream>
+
+#include "metamer/spectral/formatted.h"
 
 namespace metamer::lutgen {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename... Values>
-std::string spectral::formatted(const char* format, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 /// Four digits behind the point; text where JSON has no number.
 Json rounded(double value) {

@@ -88,9 +88,8 @@ class Validator {
   Chart smoothed(const Chart& chart) const {
     Chart result = chart;
     for (DomainSamples& reflectance : result.reflectances) {
-      if (const auto smooth = m_engine.reflectance(rgbOf(reflectance, m_input))) {
-        reflectance = *smooth * std::min(1.0, kBrightest / smooth->maxCoeff());
-      }
+      const Eigen::VectorXd guessed = m_engine.reflectance(rgbOf(reflectance, m_input)).cwiseMax(0.0);
+      reflectance = guessed * std::min(1.0, kBrightest / guessed.maxCoeff());
     }
     return result;
   }
