@@ -17,6 +17,5 @@ value, matrix = transform.linearise(colour)
 reflectance = transform.reflectance(colour)
 temperature, duv = metamer.correlated_colour_temperature(lamp)
 print(f"{value} by {matrix}; the lamp has {temperature:.0f} K, Duv {duv:.4f}")
-if reflectance is not None:
-    brightest = transform.wavelengths[reflectance.argmax()]
-    print(f"the colour's reflectance is greatest at {brightest:.0f} nm")
+brightest = transform.wavelengths[reflectance.argmax()]
+print(f"the colour's reflectance is greatest at {brightest:.0f} nm")
