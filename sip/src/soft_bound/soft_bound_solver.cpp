@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace metamer::sip {
@@ -13,9 +14,13 @@ namespace {
 using Eigen::Array4d;
 using Eigen::Index;
 
-/// Newton's method settles in a few rounds, at most about ten; a step that rounding keeps from settling is as good as
-/// its last round.
+/// Newton's method settles in a few rounds, at most about ten; a cap for what cannot be foreseen.
 constexpr int kMostRounds = 60;
+/// A band of no more than this part of the spectrum is zero but for rounding, and as good clamped as free: it may
+/// change sides for ever.
+constexpr double kNothing = 1e-12;
+/// A guess that takes longer is a bad one: far too many bands are let go one a round.
+constexpr int kMostGuessedRounds = 10;
 constexpr int kMostHalvings = 30;
 
 std::size_t at(int band) {
@@ -28,6 +33,17 @@ ClampedBands belowZero(const BandVector& spectrum) {
     clamped[static_cast<std::size_t>(b)] = spectrum[b] < 0.0;
   }
   return clamped;
+}
+
+/// Whether the bands that were clamped for a spectrum are those that it has below zero.
+bool holdsFor(const ClampedBands& clamped, const BandVector& spectrum) {
+  const double nothing = kNothing * spectrum.cwiseAbs().maxCoeff();
+  for (Index b = 0; b < spectrum.size(); ++b) {
+    if ((spectrum[b] < 0.0) != clamped[static_cast<std::size_t>(b)] && !(std::abs(spectrum[b]) <= nothing)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 /// Minus the second difference with natural ends.
@@ -179,10 +195,10 @@ SoftBoundSolver::Solution SoftBoundSolver::solve(const Eigen::Vector3d& tristimu
     if (prior != nullptr) {
       solution.reflectance += *prior;
     }
-    guess = belowZero(solution.reflectance);
-    if (guess.none()) {
+    if (holdsFor(guess, solution.reflectance)) {
       return solution;
     }
+    guess = belowZero(solution.reflectance);
   }
   const double* p = prior != nullptr ? prior->data() : nullptr;
   // What the spectrum's own response is held to.
@@ -236,16 +252,24 @@ SoftBoundSolver::Solution SoftBoundSolver::solve(const Eigen::Vector3d& tristimu
         target[row] -= sums[k][3];
       }
       system.diagonal().array() += m_slack;
+      // Once more for what is left: lights that hardly tell two channels apart lose half the digits.
+      const Eigen::Matrix3d inverse = system.inverse();
+      Eigen::Vector3d multipliers = inverse * target;
+      multipliers += inverse * (target - system * multipliers);
       Array4d pull;
-      pull << (system.inverse() * target).array(), 1.0;
+      pull << multipliers.array(), 1.0;
       for (int b = 0; b < count; ++b) {
         next[b] = (answers[at(b)] * pull).sum();
       }
     }
-    const ClampedBands found = belowZero(next);
-    if (found == guess || solution.rounds == kMostRounds) {
+    if (holdsFor(guess, next) || solution.rounds == kMostRounds) {
       solution.reflectance = next;
       break;
+    }
+    if (start != nullptr && solution.rounds == kMostGuessedRounds) {
+      solution = solve(tristimulus, prior);
+      solution.rounds += kMostGuessedRounds;
+      return solution;
     }
     double step = 1.0;
     if (hasPoint) {
@@ -263,7 +287,7 @@ SoftBoundSolver::Solution SoftBoundSolver::solve(const Eigen::Vector3d& tristimu
       hasPoint = true;
     }
     solution.reflectance = next;
-    guess = step == 1.0 ? found : belowZero(next);
+    guess = belowZero(next);
   }
   solution.clamped = guess;
   return solution;

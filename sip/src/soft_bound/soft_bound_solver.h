@@ -40,7 +40,7 @@ class SoftBoundSolver {
 
   struct Solution {
     BandVector reflectance;  ///< R, B values
-    ClampedBands clamped;    ///< the bands where R is below zero
+    ClampedBands clamped;    ///< the bands where R is below zero by more than rounding
     int rounds = 0;          ///< systems solved
   };
   /// @param tristimulus  c, any finite three numbers
