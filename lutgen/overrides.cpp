@@ -118,6 +118,9 @@ void addOverrides(CLI::App& command, Overrides& overrides) {
   command.add_option("--cat", overrides.cat, "Chromatic adaptation")
       ->group(group)
       ->check(CLI::IsMember({"vonkries", "bradford", "cat02", "cat16"}));
+  command.add_option("--balanced", overrides.balanced, "How the shot was white-balanced; left out: as --cat")
+      ->group(group)
+      ->check(CLI::IsMember({"camera", "rgb", "none", "vonkries", "bradford", "cat02", "cat16"}));
   command
       .add_option("--adaptation", overrides.adaptation, "0: the eye stays with the input light ... 1: neutrals stay")
       ->group(group)
@@ -152,6 +155,9 @@ sip::Recipe recipeWith(const std::string& recipeFile, const Overrides& overrides
   }
   if (overrides.cat) {
     recipe.cat = spectral::chromaticAdaptationFromName(*overrides.cat);
+  }
+  if (overrides.balanced) {
+    recipe.balanced = sip::balanceFromName(*overrides.balanced);
   }
   recipe.name = overrides.name.value_or(recipe.name);
   recipe.space = overrides.space.value_or(recipe.space);

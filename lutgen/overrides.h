@@ -22,6 +22,7 @@ struct Overrides {
   std::optional<std::string> observerOut;
   std::optional<std::string> scene;
   std::optional<std::string> cat;
+  std::optional<std::string> balanced;
   std::optional<double> adaptation;
   bool keepExposure = false;
 };

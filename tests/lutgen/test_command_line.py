@@ -71,6 +71,7 @@ class Help(LutgenTest):
             ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--size", "1000000"],
             ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--adaptation", "2"],
             ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--cat", "cat99"],
+            ["bake", "-o", "a.cube", *DAY_TO_TUNGSTEN, "--balanced", "auto"],
             ["apply", "a.cube", "in.exr"],
             ["list", "lamps"],
         ):

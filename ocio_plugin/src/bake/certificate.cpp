@@ -64,6 +64,7 @@ Json recipeJson(const sip::Recipe& recipe) {
           {"output", output},
           {"scene", scene},
           {"cat", spectral::nameOf(recipe.cat)},
+          {"balanced", nameOf(recipe.balanced.value_or(sip::Balance{.cat = recipe.cat}))},
           {"keep_exposure", recipe.keepExposure}};
 }
 

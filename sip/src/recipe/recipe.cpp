@@ -23,6 +23,7 @@ using spectral::YamlSection;
 
 constexpr double kLargestDensity = 100.0;
 constexpr const char* kStandardObserver = "CIE 1931 2";
+constexpr const char* kDaylight = "D65";  // what cameras' matrices are made for
 
 RecipeFilter readFilter(const YamlNode& node, const YamlSection& pipeline, const std::string& path) {
   if (node.kind == YamlNode::Kind::Scalar) {
@@ -155,7 +156,7 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
   }
   const YamlNode root = spectral::parseYaml(text, where);
   const YamlSection top(root, where, "",
-                        {"metamer", "name", "space", "input", "output", "scene", "cat", "keep_exposure"});
+                        {"metamer", "name", "space", "input", "output", "scene", "cat", "balanced", "keep_exposure"});
   const YamlNode& version = top.require("metamer", "is missing; a recipe starts with 'metamer: 1'");
   if (version.kind != YamlNode::Kind::Scalar || version.quoted || version.text != "1") {
     throw top.error(version, "metamer", version.text,
@@ -186,6 +187,14 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
       throw top.error(*cat, "cat", name, "must be vonkries, bradford, cat02 or cat16");
     }
   }
+  if (const YamlNode* balanced = top.find("balanced")) {
+    const std::string name = top.text(*balanced, "balanced");
+    try {
+      recipe.balanced = balanceFromName(name);
+    } catch (const InputError&) {
+      throw top.error(*balanced, "balanced", name, kBalanceRemedy);
+    }
+  }
   return recipe;
 }
 
@@ -201,6 +210,7 @@ std::string toYaml(const Recipe& recipe) {
   }
   text += "}\n";
   text += "cat: " + spectral::nameOf(recipe.cat) + "\n";
+  text += "balanced: " + nameOf(recipe.balanced.value_or(Balance{.cat = recipe.cat})) + "\n";
   return text + "keep_exposure: " + (recipe.keepExposure ? "true" : "false") + "\n";
 }
 
@@ -218,7 +228,9 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
       .keepExposure = recipe.keepExposure,
       .scene = {.kind = recipe.scene.kind, .samples = {}, .skins = {}, .strength = recipe.scene.strength},
       .training = measuredSurfaces(library),
-      .standardObserver = library.observer(kStandardObserver)};
+      .standardObserver = library.observer(kStandardObserver),
+      .balanced = recipe.balanced,
+      .daylight = library.illuminant(kDaylight)};
   switch (recipe.scene.kind) {
     case ReferenceScene::Kind::Smooth:
       break;

@@ -5,6 +5,7 @@
 
 #include "metamer/sip/band_weights.h"
 #include "metamer/spectral/input_error.h"
+#include "transform/side_balance.h"
 
 namespace metamer::sip {
 
@@ -14,7 +15,7 @@ namespace {
 
 /// A channel whose white is this much darker than the brightest one's is dark.
 constexpr double kDarkChannel = 1e-12;
-/// The same for a cone of the eye that is to adapt.
+/// A cone of a white whose Y is 1 has no light where it is not above this.
 constexpr double kDarkCone = 1e-9;
 
 }  // namespace
@@ -37,35 +38,54 @@ Sides prepareSides(const TransformSpec& spec) {
   sides.equal = input.light == output.light && input.curves == output.curves &&
                 input.xyzFromResponse == output.xyzFromResponse && exposure == 1.0;
 
+  const SideBalance inputBalance = balanceOf(spec, spec.input, input);
+  const SideBalance outputBalance = balanceOf(spec, spec.output, output);
+  if (inputBalance.hasDarkCones) {
+    throw InputError(spec.input.illuminant.name(), "balanced", inputBalance.cones,
+                     "does not reach this light (no response in one channel); use vonkries");
+  }
+  if (spec.adaptation > 0.0 && outputBalance.hasDarkCones) {
+    throw InputError(spec.output.illuminant.name(), "adaptation", std::to_string(spec.adaptation),
+                     "the eye cannot adapt to this light with " + outputBalance.cones +
+                         " (no response in one cone); use adaptation 0 or vonkries");
+  }
   const Eigen::Vector3d white = spec.space.whiteXyz();
   const Eigen::Matrix3d relativeFromXyz = white.cwiseInverse().asDiagonal();
-  const Eigen::Matrix3d xyzFromNormalised = input.xyzFromResponse * input.white.asDiagonal();
-  sides.responseFromRgb =
-      xyzFromNormalised.inverse() * spectral::adaptXyz(spec.cat, white, input.whiteXyz()) * spec.space.xyzFromRgb();
-  sides.relativeFromRgb = relativeFromXyz * spec.space.xyzFromRgb();
-  sides.relativeFromResponse = sides.relativeFromRgb * sides.responseFromRgb.inverse();
+  sides.relativeFromResponse = inputBalance.relativeFromResponse * input.white.asDiagonal();
+  sides.relativeFromOutputResponse = outputBalance.relativeFromResponse;
+  sides.unseen = outputBalance.unseen;
 
   const Eigen::Matrix3d cones = spectral::lmsFromXyz(spec.cat);
   const Eigen::Array3d whiteCones = (cones * white).array();
   const Eigen::Array3d inputCones = (cones * input.whiteXyz()).array();
   const Eigen::Array3d outputCones = (cones * output.whiteXyz()).array();
-  const Eigen::Array3d dark = (outputCones <= kDarkCone).cast<double>();
-  if (spec.adaptation > 0.0 && dark.any()) {
-    throw InputError(spec.output.illuminant.name(), "adaptation", std::to_string(spec.adaptation),
-                     "the eye cannot adapt to this light with " + spectral::nameOf(spec.cat) +
-                         " (no response in one cone); use adaptation 0 or vonkries");
+  if (spec.adaptation < 1.0 && !(inputCones.minCoeff() > kDarkCone)) {
+    throw InputError(spec.input.illuminant.name(), "cat", spectral::nameOf(spec.cat),
+                     "does not reach this light (no response in one cone); use vonkries");
   }
   const auto onCones = [&](const Eigen::Array3d& gain) -> Eigen::Matrix3d {
     return cones.inverse() * gain.matrix().asDiagonal() * cones;
   };
-  const Eigen::Array3d full = (1.0 - dark) * whiteCones / (outputCones + dark);
-  sides.relativeFromOutputResponse = relativeFromXyz * onCones(full) * output.xyzFromResponse;
-  sides.unseen = relativeFromXyz * onCones(dark) * white.asDiagonal();
   // The gain in cone space is D W / W_out + (1 - D) W / W_in: this much of full adaptation's.
-  const Eigen::Array3d degree = spec.adaptation + (1.0 - spec.adaptation) * outputCones / inputCones;
-  sides.rgbFromRelative = exposure * spec.space.rgbFromXyz() * onCones(degree) * white.asDiagonal();
-  const Eigen::Array3d gain = (1.0 - spec.adaptation) * whiteCones / inputCones + spec.adaptation * full;
-  sides.rgbFromOutputResponse = exposure * spec.space.rgbFromXyz() * onCones(gain) * output.xyzFromResponse;
+  Eigen::Array3d degree = spec.adaptation + (1.0 - spec.adaptation) * outputCones / inputCones;
+  Eigen::Array3d noAdaptation = whiteCones / inputCones;
+  if (spec.balanced && spec.balanced->kind == Balance::Kind::None) {
+    // The picture holds the light as it is, and so does the result.
+    const Eigen::Matrix3d xyzFromNormalised = input.xyzFromResponse * input.white.asDiagonal();
+    sides.responseFromRgb = xyzFromNormalised.inverse() * spec.space.xyzFromRgb();
+    sides.relativeFromRgb = sides.relativeFromResponse * sides.responseFromRgb;
+    degree /= noAdaptation;
+    noAdaptation.setOnes();
+  } else {
+    sides.relativeFromRgb = relativeFromXyz * spec.space.xyzFromRgb();
+    sides.responseFromRgb = sides.relativeFromResponse.inverse() * sides.relativeFromRgb;
+  }
+  const Eigen::Matrix3d rgbFromXyz = exposure * spec.space.rgbFromXyz();
+  sides.rgbFromRelative = rgbFromXyz * onCones(degree) * white.asDiagonal();
+  sides.rgbFromOutputResponse = sides.rgbFromRelative * sides.relativeFromOutputResponse;
+  if (outputBalance.hasDarkCones) {  // where nothing can be adapted, and what full adaptation takes away is there
+    sides.rgbFromOutputResponse = rgbFromXyz * onCones(noAdaptation) * output.xyzFromResponse;
+  }
   return sides;
 }
 

@@ -11,7 +11,8 @@ namespace metamer::sip {
 /// Both sides of the dual pipeline (course notes, sections 5.2 and 5.6) and the matrices between their spaces.
 ///
 /// - response: the input side's, white-normalised: the perfect reflector is (1, 1, 1);
-/// - relative: XYZ of the working space over its white, as fully adapted: plain adaptation leaves a colour as it is;
+/// - relative: XYZ of the working space over its white, as fully adapted: plain adaptation leaves a colour as it is.
+///   Of a picture that was balanced it is the picture itself;
 /// - output response: PreparedPipeline's.
 struct Sides {
   PreparedPipeline input;

@@ -60,6 +60,7 @@ scene:
   kind: skin
   strength: 5e-1
 cat: cat16
+balanced: camera
 keep_exposure: true
 )");
   EXPECT_EQ(recipe.name, "day_to_sodium");
@@ -80,6 +81,7 @@ keep_exposure: true
   EXPECT_EQ(recipe.scene.kind, ReferenceScene::Kind::Skin);
   EXPECT_EQ(recipe.scene.strength, 0.5);
   EXPECT_EQ(recipe.cat, spectral::ChromaticAdaptation::Cat16);
+  EXPECT_EQ(recipe.balanced, Balance{.kind = Balance::Kind::Camera});
   EXPECT_TRUE(recipe.keepExposure);
 }
 
@@ -93,6 +95,7 @@ TEST(RecipeTest, Defaults) {
             "output: {illuminant: HP1, filters: [], observer: \"CIE 1931 2\", adaptation: 0}\n"
             "scene: {kind: natural}\n"
             "cat: vonkries\n"
+            "balanced: vonkries\n"
             "keep_exposure: false\n");
 }
 
@@ -105,6 +108,7 @@ TEST(RecipeTest, YamlReadsBackAsTheSameRecipe) {
   recipe.adaptation = 0.1;
   recipe.scene = {ReferenceScene::Kind::Dataset, "!tag", 1.0};
   recipe.cat = spectral::ChromaticAdaptation::Cat02;
+  recipe.balanced = Balance{.kind = Balance::Kind::None};
   recipe.keepExposure = true;
   const Recipe back = parse(toYaml(recipe));
   EXPECT_EQ(back.name, recipe.name);
@@ -123,6 +127,7 @@ TEST(RecipeTest, YamlReadsBackAsTheSameRecipe) {
   EXPECT_EQ(back.scene.set, recipe.scene.set);
   EXPECT_EQ(back.scene.strength, recipe.scene.strength);
   EXPECT_EQ(back.cat, recipe.cat);
+  EXPECT_EQ(back.balanced, recipe.balanced);
   EXPECT_EQ(back.keepExposure, recipe.keepExposure);
   EXPECT_EQ(toYaml(back), toYaml(recipe));
   for (const auto kind : {ReferenceScene::Kind::Natural, ReferenceScene::Kind::Smooth, ReferenceScene::Kind::Skin}) {
@@ -149,10 +154,12 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
       {"white space", "\n  \n", "r.yaml: recipe: is empty; a recipe starts with 'metamer: 1'"},
       {"comment", "# nothing\n", "r.yaml: recipe: is empty; a recipe starts with 'metamer: 1'"},
       {"list at the top", "- metamer: 1\n",
-       "r.yaml:1: recipe: must be a map of metamer, name, space, input, output, scene, cat, keep_exposure, such as "
+       "r.yaml:1: recipe: must be a map of metamer, name, space, input, output, scene, cat, balanced, keep_exposure, "
+       "such as "
        "'metamer: 1'"},
       {"text at the top", "metamer\n",
-       "r.yaml:1: recipe 'metamer': must be a map of metamer, name, space, input, output, scene, cat, keep_exposure, "
+       "r.yaml:1: recipe 'metamer': must be a map of metamer, name, space, input, output, scene, cat, balanced, "
+       "keep_exposure, "
        "such as 'metamer: 1'"},
       {"quoted version", "metamer: '1'\n",
        "r.yaml:1: metamer '1': is a version this release does not read; it reads 1, a number without quotes"},
@@ -162,7 +169,7 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
       {"version 2", "metamer: 2\n", "r.yaml:1: metamer '2': is a version this release does not read; it reads 1"},
       {"version as a list", "metamer: [1]\n", "r.yaml:1: metamer: is a version this release does not read; it reads 1"},
       {"unknown key", with("scean: {kind: smooth}\n"),
-       "r.yaml:4: key 'scean': unknown; the keys here are metamer, name, space, input, output, scene, cat, "
+       "r.yaml:4: key 'scean': unknown; the keys here are metamer, name, space, input, output, scene, cat, balanced, "
        "keep_exposure"},
       {"unknown key below", "metamer: 1\ninput: {illuminant: D65,\n  filter: []}\noutput: {illuminant: A}\n",
        "r.yaml:3: key 'input.filter': unknown; did you mean 'filters'? the keys here are illuminant, filters, "
@@ -229,6 +236,9 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
        "r.yaml:4: scene.strength '2': must be a number from 0 to 1"},
       {"radius", with("scene: {kind: skin, radius: 0.1}\n"), "r.yaml:4: key 'scene.radius': unknown"},
       {"unknown cat", with("cat: cat61\n"), "r.yaml:4: cat 'cat61': must be vonkries, bradford, cat02 or cat16"},
+      {"unknown balance", with("balanced: auto\n"),
+       "r.yaml:4: balanced 'auto': must be camera, rgb, none, vonkries, bradford, cat02 or cat16"},
+      {"balance as a map", with("balanced: {cat: bradford}\n"), "r.yaml:4: balanced: must be a name, not a map"},
       {"anchor", "metamer: 1\ninput: &a {illuminant: D65}\noutput: {illuminant: A}\n",
        "r.yaml:2: anchor: anchors are not allowed in a recipe; write the value out"},
       {"alias", "metamer: 1\ninput: {illuminant: &a D65}\noutput: {illuminant: *a}\n",
@@ -306,7 +316,7 @@ TEST(RecipeTest, ResolvesEveryName) {
   const Recipe recipe = parse(
       "metamer: 1\nspace: ACEScct\ninput: {illuminant: D65, filters: [{name: ISO Standard Lens, density: 2}]}\n"
       "output: {illuminant: A, observer: Nikon D5100, adaptation: 1}\n"
-      "scene: {kind: skin, strength: 0.5}\ncat: bradford\nkeep_exposure: true\n");
+      "scene: {kind: skin, strength: 0.5}\ncat: bradford\nbalanced: cat02\nkeep_exposure: true\n");
   const TransformSpec spec = resolve(recipe, testLibrary());
   EXPECT_EQ(spec.space.primaries, testLibrary().colourSpace("ACEScg").linear.primaries);
   EXPECT_EQ(spec.input.illuminant.name(), "D65");
@@ -315,6 +325,7 @@ TEST(RecipeTest, ResolvesEveryName) {
   EXPECT_EQ(spec.output.observer.response, spectral::Observer::Response::Camera);
   EXPECT_EQ(spec.adaptation, 1.0);
   EXPECT_EQ(spec.cat, spectral::ChromaticAdaptation::Bradford);
+  EXPECT_EQ(spec.balanced, Balance{.cat = spectral::ChromaticAdaptation::Cat02});
   EXPECT_TRUE(spec.keepExposure);
   EXPECT_EQ(spec.scene.kind, ReferenceScene::Kind::Skin);
   EXPECT_EQ(spec.scene.strength, 0.5);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct RecipeScene {
 ///     output: {illuminant: HP1, filters: [{file: gel.csv, density: 0.5}], observer: CIE 1931 2, adaptation: 0.0}
 ///     scene:  {kind: natural}
 ///     cat: vonkries
+///     balanced: vonkries
 ///
 /// A filter is a NAME, or a map with `name` or `file`, and `density`. `keep_exposure: true` keeps the light that
 /// filters cost. Only `metamer`, and the two illuminants, must be there.
@@ -48,6 +50,7 @@ struct Recipe {
   double adaptation = 0.0;
   RecipeScene scene;
   spectral::ChromaticAdaptation cat = spectral::ChromaticAdaptation::VonKries;
+  std::optional<Balance> balanced;  ///< none given: by `cat`
   bool keepExposure = false;
   std::string where;             ///< the recipe's file, for messages; empty where it has none
   std::filesystem::path folder;  ///< where relative files are looked for: the recipe file's own folder

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "metamer/sip/balance.h"
 #include "metamer/sip/clamped_bands.h"
 #include "metamer/sip/pipeline.h"
 #include "metamer/spectral/chromatic_adaptation.h"
@@ -39,13 +41,15 @@ struct TransformSpec {
   spectral::RgbSpace space;  ///< working space, linear, in and out
   Pipeline input;
   Pipeline output;
-  double adaptation = 0.0;  ///< 0: the eye stays with the input light; 1: neutrals stay neutral
-  spectral::ChromaticAdaptation cat = spectral::ChromaticAdaptation::VonKries;
+  double adaptation = 0.0;  ///< 0: the eye stays with the input light; 1: neutrals stay as they are
+  spectral::ChromaticAdaptation cat = spectral::ChromaticAdaptation::VonKries;  ///< where the light's colour shows
   bool keepExposure = false;  ///< keep the light lost or won by filters
   ReferenceScene scene;
   /// Ordinary surfaces: cameras without a matrix are fitted to them, and limits are set so that they are left alone.
   std::vector<spectral::DomainSamples> training;
-  spectral::Observer standardObserver;  ///< CIE 1931 2 degree
+  spectral::Observer standardObserver;   ///< CIE 1931 2 degree
+  std::optional<Balance> balanced = {};  ///< how the picture was balanced, and the result is; none given: by `cat`
+  std::optional<spectral::Spectrum> daylight = {};  ///< D65, for Balance::Kind::Camera
 };
 
 /// The spectral intermediate transform of a specification: RGB in, RGB out, both linear in the working space.
@@ -90,7 +94,7 @@ class SpectralTransform {
   /// Corner rays, in RGB and in order round white, of the cone where linearMatrix() is exact; empty where there is
   /// none.
   std::vector<Eigen::Vector3d> linearConeCorners() const;
-  /// White-normalised input response from RGB: (1,1,1) is (1,1,1).
+  /// White-normalised input response from RGB: (1,1,1) is (1,1,1), but for a picture that was not balanced.
   Eigen::Matrix3d responseFromRgb() const;
   /// RGB from the output pipeline's response (of PreparedPipeline, before any reflectance is guessed): what a scene
   /// known by its spectra should become.
