@@ -30,6 +30,7 @@ class Door:
             "metamerDeltaE": (None, [_HANDLE, _HANDLE, _HANDLE, _HANDLE, _SIZE]),
             "metamerTimeSolves": (None, [_TEXT, _INT, _INT, _HANDLE, _SIZE, _HANDLE]),
             "metamerEngine": (_HANDLE, [_TEXT, _TEXT, _INT, _TEXT, _TEXT, _DOUBLE]), "metamerEngineClose": (None, [_HANDLE]),
+            "metamerRecipeEngine": (_HANDLE, [_TEXT, _INT]),
             "metamerEngineApply": (_DOUBLE, [_HANDLE, _HANDLE, _HANDLE, _SIZE]),
             "metamerEngineDiagnostics": (None, [_HANDLE, _HANDLE]),
             "metamerObserverDiagnostics": (_INT, [_TEXT, _TEXT, _HANDLE]),
@@ -135,6 +136,15 @@ class Engine:
         """Share of colours where the map of chromaticities folds."""
         rgb = _rows(rgb)
         return self.library.metamerEngineFolds(self.handle, _pointer(rgb), len(rgb))
+
+
+class RecipeEngine(Engine):
+    """The exact engine of a recipe's text."""
+
+    def __init__(self, door, recipe, bands):
+        self.library = door.library
+        self.handle = self.library.metamerRecipeEngine(recipe.encode(), bands)
+        self.refused = self.handle is None
 
 
 class Map:

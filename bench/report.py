@@ -29,6 +29,7 @@ SECTIONS = {
     "bands": ("How many bands", "accuracy"),
     "recovery": ("Other recoveries in the same pipeline", "accuracy"),
     "matching": ("Matching shots: robust or accurate", "accuracy"),
+    "balance": ("How the shot was balanced", "accuracy"),
     "validation": ("The loop closed", "accuracy"),
     "stability": ("Numerical stability", "accuracy"),
     "compilers": ("Whatever compiled it, and however many threads", "accuracy"),
