@@ -36,6 +36,10 @@ class RecipeReader {
     recipe.adaptation = m_values.number("adaptation", m_time);
     recipe.scene = readScene();
     recipe.cat = spectral::chromaticAdaptationFromName(m_values.menu("cat", m_time));
+    const std::string balanced = m_values.menu("balanced", m_time);
+    if (balanced != kAsAdaptation) {
+      recipe.balanced = sip::balanceFromName(balanced);
+    }
     recipe.keepExposure = m_values.flag("keepExposure", m_time);
     return recipe;
   }
@@ -161,7 +165,7 @@ class SpectralTransfer final : public Effect {
       values.enable(side + kObserver, byMenus);
       values.enable(side + kObserverFile, byMenus && values.menu(side + kObserver, 0) == kFromFile);
     }
-    for (const char* name : {"adaptation", "scene", "space", "cat", "keepExposure"}) {
+    for (const char* name : {"adaptation", "scene", "space", "cat", "balanced", "keepExposure"}) {
       values.enable(name, byMenus);
     }
     values.enable("sceneSet", byMenus && scene == kDataset);

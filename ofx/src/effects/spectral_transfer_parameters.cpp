@@ -88,6 +88,11 @@ std::vector<Parameter> spectralTransferParameters(const Catalogue& catalogue) {
                                 "Colour space of the picture, in and out; linear or log."));
   parameters.push_back(makeMenu("cat", "Chromatic adaptation", colour, {"vonkries", "bradford", "cat02", "cat16"},
                                 "vonkries", "The cone space in which white is adapted to white."));
+  parameters.push_back(makeMenu(
+      "balanced", "Shot balanced by", colour,
+      {kAsAdaptation, "camera", "rgb", "none", "vonkries", "bradford", "cat02", "cat16"}, kAsAdaptation,
+      "How the light's colour was taken out of the shot. camera: gains on the channels of the input observer, and its "
+      "matrix for daylight; rgb: gains on the working space, as by a grey card; none: it is still there."));
   parameters.push_back(makeFlag("keepExposure", "Keep exposure", colour, false, true,
                                 "On: the light that filters cost is lost in the result too. Off: made up for."));
   parameters.push_back(makeMenu("quality", "Quality", colour, {kMapQuality, kExactQuality}, kMapQuality,

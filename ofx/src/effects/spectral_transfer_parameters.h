@@ -13,6 +13,7 @@ inline constexpr const char* kBlackbody = "Blackbody";
 inline constexpr const char* kDaylight = "CIE daylight";
 inline constexpr const char* kFromFile = "From file";
 inline constexpr const char* kNoFilter = "None";
+inline constexpr const char* kAsAdaptation = "As chromatic adaptation";
 inline constexpr const char* kSmooth = "Smooth";
 inline constexpr const char* kDataset = "Data set";
 inline constexpr const char* kNatural = "Natural";
