@@ -25,9 +25,9 @@ struct ReferenceScene {
     Dataset,  ///< measured spectra, interpolated over triangles of chromaticities
   };
   Kind kind = Kind::Smooth;
-  std::vector<spectral::DomainSamples> samples;  ///< reflectances; empty for Smooth
-  std::vector<spectral::DomainSamples> skins;    ///< Natural, Skin: reflectances of skins
-  double strength = 1.0;                         ///< Skin: 0 = as Natural ... 1
+  std::vector<spectral::DomainSamples> samples;     ///< reflectances; empty for Smooth
+  std::vector<spectral::DomainSamples> skins = {};  ///< Natural, Skin: reflectances of skins
+  double strength = 1.0;                            ///< Skin: 0 = as Natural ... 1
 };
 
 /// What a message says of any other name.
