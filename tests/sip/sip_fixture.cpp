@@ -50,6 +50,14 @@ std::vector<spectral::DomainSamples> samplesOf(const std::string& set) {
   return samples;
 }
 
+Eigen::MatrixXd onBands(const std::vector<spectral::DomainSamples>& samples, int bandCount) {
+  Eigen::MatrixXd bands(bandCount, static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    bands.col(static_cast<Eigen::Index>(i)) = atBandCentres(samples[i], bandCount);
+  }
+  return bands;
+}
+
 Eigen::Matrix3Xd normalisedWeights(const std::string& light, int bandCount) {
   const Eigen::Matrix3Xd weights = bandWeights(testLibrary().illuminant(light).onDomain(),
                                                testLibrary().observer("CIE 1931 2").onDomain(), bandCount);

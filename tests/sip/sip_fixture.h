@@ -31,6 +31,9 @@ std::vector<spectral::Spectrum> chart();
 /// A set of data/ on the domain.
 std::vector<spectral::DomainSamples> samplesOf(const std::string& set);
 
+/// Samples at the band centres, a column each.
+Eigen::MatrixXd onBands(const std::vector<spectral::DomainSamples>& samples, int bandCount);
+
 /// White-normalised weights of a light of data/ under CIE 1931 2: rows sum to 1.
 Eigen::Matrix3Xd normalisedWeights(const std::string& light, int bandCount);
 
