@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "ofx_host/bare_host.h"
+#include "bare_host.h"
 
 namespace {
 
