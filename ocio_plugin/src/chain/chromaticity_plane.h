@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "metamer/sip/spectral_locus.h"
 #include "metamer/sip/spectral_transform.h"
@@ -23,24 +24,25 @@ struct ChromaticityFrame {
 
 /// The frames between which a spectral transform is tabulated.
 ///
-/// The plane is a triangle round all that can be seen: a wide cone of colours, to whose border colours from beyond are
-/// cut before anything is divided by their sum. In it s and p1 are positive, before the transform and after, so that
-/// nothing that a camera's noise makes can explode. Where the transform is its linear matrix, both frames give the same
-/// coordinates, and the table is the identity there (unless what comes out asks for another sum).
+/// All that the input's observer can see lies in the unit square of the input's (a, b), and s and p1 are positive on
+/// all of it and on all that comes out. Where the transform is its unconstrained matrix, both frames give the same
+/// coordinates, so that the table is the identity there (unless the matrix is too nearly singular for that).
 struct ChromaticityPlane {
-  /// Three coordinates of a colour that are not below zero within the cone.
-  Eigen::Matrix3d coneFromRgb;
   ChromaticityFrame input;
   ChromaticityFrame output;
   Eigen::Vector2d white;     ///< the input's (a, b) of RGB (1, 1, 1)
   sip::SpectralLocus locus;  ///< the colours of all lights
   Eigen::Matrix3d xyzFromRgb;
 
-  /// Whether a colour is one of those that errors are counted for: that lights can have.
-  bool isVisible(const Eigen::Vector3d& rgb) const;
+  bool isFeasible(const Eigen::Vector3d& rgb) const {
+    const Eigen::Vector3d xyz = xyzFromRgb * rgb;
+    return xyz.sum() > 0.0 && locus.contains(xyz.head<2>() / xyz.sum());
+  }
 };
 
+/// Planes worth trying for a transform, at least one. They differ in how they stretch chromaticities.
 /// @param spec  what the transform was made from
-ChromaticityPlane chromaticityPlane(const sip::TransformSpec& spec, const sip::SpectralTransform& transform);
+std::vector<ChromaticityPlane> chromaticityPlanes(const sip::TransformSpec& spec,
+                                                  const sip::SpectralTransform& transform);
 
 }  // namespace metamer::ocio

@@ -17,10 +17,9 @@ constexpr double kLuminance = 0.18;
 /// Deviation of coordinates that the metric is taken by, and of the plane's that areas are.
 constexpr double kStep = 1e-3;
 constexpr double kAreaStep = 1e-5;
-/// Beyond the locus: the part of a colour's size that counts as one CIEDE2000.
-constexpr double kBeyondPart = 0.1;
-/// The ring: its part of the way to the locus.
+/// The ring: its part of the way to the border, which is found by halving.
 constexpr double kRingPart = 0.97;
+constexpr int kHalvings = 40;
 
 }  // namespace
 
@@ -36,39 +35,30 @@ Eigen::Vector3d ChromaticityProbe::colourAt(const Eigen::Vector2d& point) const 
   return rgb * (kLuminance / std::max(y, 0.01 * rgb.norm()));
 }
 
-ChromaticityProbe::Answer ChromaticityProbe::answered(const Eigen::Vector3d& in, bool isVisible) const {
+ChromaticityProbe::Answer ChromaticityProbe::answered(const Eigen::Vector3d& in, bool isFeasible) const {
   Answer answer;
   answer.in = in;
   answer.out = m_transform.apply(in);
   answer.amount = m_plane.input.coordinates(in)[2];
   answer.value = m_plane.output.coordinates(answer.out);
   answer.value[2] -= answer.amount;
-  answer.isVisible = isVisible;
+  answer.isFeasible = isFeasible;
   answer.isUsable = answer.value.allFinite() && answer.value.cwiseAbs().maxCoeff() < 1e3;
   return answer;
 }
 
 ChromaticityProbe::Answer ChromaticityProbe::ask(const Eigen::Vector2d& point) const {
   const Eigen::Vector3d in = colourAt(point);
-  return answered(in, m_plane.isVisible(in));
+  return answered(in, m_plane.isFeasible(in));
 }
 
-ChromaticityProbe::Answer ChromaticityProbe::askVisible(const Eigen::Vector2d& point) const {
+ChromaticityProbe::Answer ChromaticityProbe::askFeasible(const Eigen::Vector2d& point) const {
   const Eigen::Vector3d in = colourAt(point);
-  return m_plane.isVisible(in) ? answered(in, true) : Answer{};
+  return m_plane.isFeasible(in) ? answered(in, true) : Answer{};
 }
 
 Eigen::Matrix3d ChromaticityProbe::metric(const Answer& answer) const {
   const Eigen::Vector3d centre = m_plane.output.coordinates(answer.out);
-  if (!answer.isVisible) {
-    Eigen::Matrix3d slope;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(k);
-      slope.col(k) = (m_plane.output.colour(centre + step) - m_plane.output.colour(centre - step)) / (2.0 * kStep);
-    }
-    slope /= kBeyondPart * answer.in.cwiseAbs().maxCoeff();
-    return slope.transpose() * slope;
-  }
   const Eigen::Vector3d lab = spectral::lab(m_xyzFromRgb * answer.out, m_white);
   return perceptualForm(
       [&](const Eigen::Vector3d& deviation) {
@@ -91,10 +81,18 @@ std::vector<Eigen::Vector2d> ChromaticityProbe::ring(int count) const {
   std::vector<Eigen::Vector2d> points;
   for (int k = 0; k < count; ++k) {
     const double angle = 2.0 * std::numbers::pi * (k + 0.5) / count;
-    const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-    const Eigen::Vector2d xy = white + kRingPart * m_plane.locus.distanceFrom(white, direction) * direction;
-    points.emplace_back(
-        m_plane.input.coordinates(rgbFromXyz * spectral::xyzFromChromaticity(xy, kLuminance)).head<2>());
+    const auto colourAlong = [&](double part) -> Eigen::Vector3d {
+      return rgbFromXyz * spectral::xyzFromChromaticity(
+                              white + part * Eigen::Vector2d(std::cos(angle), std::sin(angle)), kLuminance);
+    };
+    double inside = 0.0;
+    double outside = 1.0;
+    for (int halving = 0; halving < kHalvings; ++halving) {
+      const double middle = 0.5 * (inside + outside);
+      const bool isAbove = white.y() + middle * std::sin(angle) > 1e-6;
+      (isAbove && m_plane.isFeasible(colourAlong(middle)) ? inside : outside) = middle;
+    }
+    points.emplace_back(m_plane.input.coordinates(colourAlong(kRingPart * inside)).head<2>());
   }
   return points;
 }

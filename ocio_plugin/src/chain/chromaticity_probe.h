@@ -21,28 +21,27 @@ class ChromaticityProbe {
     Eigen::Vector3d out;
     Eigen::Vector3d value;  ///< what the table should hold: output (a, b), and output over input amount in stops
     double amount = 0;      ///< the input's
-    bool isVisible = false;
+    bool isFeasible = false;
     bool isUsable = false;  ///< whether there is such a value
   };
   Answer ask(const Eigen::Vector2d& point) const;
-  /// The same where only colours that lights can have are of interest: others are left unsolved.
-  Answer askVisible(const Eigen::Vector2d& point) const;
+  /// The same where only colours that reflectances can make are of interest: others are left unsolved.
+  Answer askFeasible(const Eigen::Vector2d& point) const;
 
-  /// CIEDE2000 as a quadratic form of small deviations of the value. Of a colour that no light can have: deviations
-  /// relative to its size, a tenth of it for one CIEDE2000.
+  /// CIEDE2000 as a quadratic form of small deviations of the value.
   Eigen::Matrix3d metric(const Answer& answer) const;
   /// CIEDE2000 in full of another value in place of the answer's.
   double error(const Answer& answer, const Eigen::Vector3d& value) const;
 
-  /// Points close to the spectral locus, as the error protocol has them: 97 % of the way from white, at even angles of
-  /// the CIE xy diagram.
+  /// Points close to the border of what reflectances can make, as the error protocol has them: 97 % of the way from
+  /// white, at even angles of the CIE xy diagram.
   std::vector<Eigen::Vector2d> ring(int count) const;
 
   /// Area in the CIE xy diagram of a small area of the plane.
   double xyArea(const Eigen::Vector2d& point, double area) const;
 
  private:
-  Answer answered(const Eigen::Vector3d& in, bool isVisible) const;
+  Answer answered(const Eigen::Vector3d& in, bool isFeasible) const;
 
   const ChromaticityPlane& m_plane;
   const sip::SpectralTransform& m_transform;

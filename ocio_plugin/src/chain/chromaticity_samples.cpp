@@ -9,21 +9,21 @@ namespace metamer::ocio {
 namespace {
 
 /// Samples along a side of a cell.
-constexpr int kSamplesPerSide = 2;
-/// Samples of the ring close to the locus for each tick, and their share against all others together: about that among
+constexpr int kSamplesPerSide = 4;
+/// Samples of the ring close to the border for each tick, and their share against all others together: about that among
 /// the error protocol's probes, and half as much again because its largest errors lie there.
-constexpr int kRingPerTick = 4;
+constexpr int kRingPerTick = 16;
 constexpr double kRingShare = 0.14;
 
 /// Adds the ring to samples that are spread over the whole plane.
 void addRing(std::vector<TableSample>& samples, int size, const ChromaticityProbe& probe) {
   double total = 0.0;
   for (const auto& sample : samples) {
-    total += sample.exact.isVisible ? sample.area : 0.0;
+    total += sample.exact.isFeasible ? sample.area : 0.0;
   }
   const std::vector<Eigen::Vector2d> ring = probe.ring(kRingPerTick * size);
   for (const Eigen::Vector2d& point : ring) {
-    const auto answer = probe.askVisible(point);
+    const auto answer = probe.askFeasible(point);
     if (answer.isUsable) {
       const Eigen::Matrix3d metric = probe.metric(answer);
       if (metric.allFinite()) {
@@ -70,9 +70,9 @@ std::vector<TableSample> takeSamples(const PlaneLattice& lattice, const Chromati
   parallelFor(side, [&](int i) {
     for (int j = 0; j < side; ++j) {
       const Eigen::Vector2d point(centre(0, i), centre(1, j));
-      // Beyond the spectral locus one sample a cell is enough.
+      // Beyond what reflectances can make one sample a cell is enough.
       const bool isFirst = i % kSamplesPerSide == 1 && j % kSamplesPerSide == 1;
-      const auto answer = isFirst ? probe.ask(point) : probe.askVisible(point);
+      const auto answer = isFirst ? probe.ask(point) : probe.askFeasible(point);
       if (answer.isUsable) {
         const Eigen::Matrix3d metric = probe.metric(answer);
         if (metric.allFinite()) {

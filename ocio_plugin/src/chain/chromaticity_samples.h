@@ -19,7 +19,7 @@ struct TableSample {
   double area = 0;  ///< in CIE xy: its share among the error protocol's probes
 };
 
-/// Samples spread over a lattice's cells, and close to the spectral locus.
+/// Samples spread over a lattice's cells, and close to the border of what reflectances can make.
 std::vector<TableSample> takeSamples(const PlaneLattice& lattice, const ChromaticityProbe& probe);
 
 }  // namespace metamer::ocio

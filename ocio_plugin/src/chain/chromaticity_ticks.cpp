@@ -13,6 +13,9 @@ namespace {
 /// Power mean over a strip of the bending in it; and the least density of ticks against the mean.
 constexpr double kBendingPower = 1.5;
 constexpr double kLeastDensity = 0.2;
+/// Density follows a strip's error by this power, the error being held within a factor of the mean.
+constexpr double kMovePower = 0.15;
+constexpr double kMostOfMean = 20.0;
 
 /// Ticks spread so that a cumulated density grows by equal steps on either side of white, which gets a tick.
 /// @param at       rising positions 0 ... 1
@@ -46,10 +49,10 @@ std::vector<double> spreadTicks(const std::vector<double>& at, const std::vector
 
 }  // namespace
 
-PlaneTicks placeTicks(const PlaneTicks& probes, const ChromaticityPlane& plane, const sip::SpectralTransform& transform,
-                      int count) {
+PlacedTicks placeTicks(const PlaneTicks& probes, const ChromaticityPlane& plane,
+                       const sip::SpectralTransform& transform, int count) {
   struct Probe {
-    bool visible = false;
+    bool feasible = false;
     Eigen::Vector3d value;
     Eigen::Matrix3d metric;
   };
@@ -59,16 +62,16 @@ PlaneTicks placeTicks(const PlaneTicks& probes, const ChromaticityPlane& plane, 
   std::vector<Probe> grid(rows * columns);
   parallelFor(static_cast<int>(rows), [&](int i) {
     for (std::size_t j = 0; j < columns; ++j) {
-      const auto answer = asked.askVisible({probes[0][i], probes[1][j]});
+      const auto answer = asked.askFeasible({probes[0][i], probes[1][j]});
       if (answer.isUsable) {
         Probe& probe = grid[static_cast<std::size_t>(i) * columns + j];
         probe.value = answer.value;
         probe.metric = asked.metric(answer);
-        probe.visible = probe.metric.allFinite();
+        probe.feasible = probe.metric.allFinite();
       }
     }
   });
-  PlaneTicks result;
+  PlacedTicks result;
   for (int axis = 0; axis < 2; ++axis) {
     const auto& at = probes[axis];
     const std::size_t across = probes[1 - axis].size();
@@ -82,7 +85,7 @@ PlaneTicks placeTicks(const PlaneTicks& probes, const ChromaticityPlane& plane, 
         const Probe& before = probe(k - 1, other);
         const Probe& here = probe(k, other);
         const Probe& after = probe(k + 1, other);
-        if (before.visible && here.visible && after.visible) {
+        if (before.feasible && here.feasible && after.feasible) {
           const double left = at[k] - at[k - 1];
           const double right = at[k + 1] - at[k];
           const Eigen::Vector3d second =
@@ -106,12 +109,43 @@ PlaneTicks placeTicks(const PlaneTicks& probes, const ChromaticityPlane& plane, 
     for (std::size_t k = 0; k + 1 < at.size(); ++k) {
       mean += density[k] * (at[k + 1] - at[k]);
     }
-    for (double& value : density) {
-      value = std::max(value, kLeastDensity * mean) + 1e-12;
+    double total = 0.0;
+    for (std::size_t k = 0; k + 1 < at.size(); ++k) {
+      density[k] = std::max(density[k], kLeastDensity * mean) + 1e-12;
+      total += density[k] * (at[k + 1] - at[k]);
     }
-    result[axis] = spreadTicks(at, density, plane.white[axis], count);
+    result.ticks[axis] = spreadTicks(at, density, plane.white[axis], count);
+    result.bending += total * total;
   }
   return result;
+}
+
+PlaneTicks movedTicks(const PlaneTicks& ticks, const PlaneTicks& strips, const Eigen::Vector2d& white) {
+  PlaneTicks moved;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const auto& along = ticks[axis];
+    const auto& error = strips[axis];
+    double mean = 0.0;
+    for (const double value : error) {
+      mean += value / static_cast<double>(error.size());
+    }
+    std::vector<double> density;
+    for (std::size_t k = 0; k < error.size(); ++k) {
+      // Softened by its neighbours.
+      double sum = error[k];
+      double weight = 1.0;
+      for (const std::size_t other : {k - 1, k + 1}) {
+        if (other < error.size()) {
+          sum += 0.5 * error[other];
+          weight += 0.5;
+        }
+      }
+      const double part = mean > 0.0 ? std::clamp(sum / weight / mean, 1.0 / kMostOfMean, kMostOfMean) : 1.0;
+      density.push_back(std::pow(part, kMovePower) / (along[k + 1] - along[k]));
+    }
+    moved[axis] = spreadTicks(along, density, white[static_cast<Eigen::Index>(axis)], static_cast<int>(along.size()));
+  }
+  return moved;
 }
 
 std::vector<double> evenTicks(int count) {

@@ -16,9 +16,18 @@ constexpr int tickSteps(int size) {
 
 using PlaneTicks = std::array<std::vector<double>, 2>;
 
+struct PlacedTicks {
+  PlaneTicks ticks;
+  double bending = 0;  ///< what is left to err, up to a factor that depends on the count alone
+};
+
 /// Ticks that crowd where the transform bends, along either coordinate, as seen on a grid of probes. White gets a tick.
-PlaneTicks placeTicks(const PlaneTicks& probes, const ChromaticityPlane& plane, const sip::SpectralTransform& transform,
-                      int count);
+PlacedTicks placeTicks(const PlaneTicks& probes, const ChromaticityPlane& plane,
+                       const sip::SpectralTransform& transform, int count);
+
+/// Ticks moved toward the strips that err most.
+/// @param strips  along either coordinate: the error between a tick and the next
+PlaneTicks movedTicks(const PlaneTicks& ticks, const PlaneTicks& strips, const Eigen::Vector2d& white);
 
 std::vector<double> evenTicks(int count);
 

@@ -38,13 +38,6 @@ OCIO::LogCameraTransformRcPtr amountLog(OCIO::TransformDirection direction) {
   return log;
 }
 
-OCIO::RangeTransformRcPtr notBelowZero() {
-  auto range = OCIO::RangeTransform::Create();
-  range->setMinInValue(0.0);
-  range->setMinOutValue(0.0);
-  return range;
-}
-
 /// The curve that turns ticks into even steps: identity on the third channel.
 OCIO::Lut1DTransformRcPtr tickCurves(const std::array<std::vector<double>, 2>& ticks) {
   const int steps = tickSteps(static_cast<int>(ticks[0].size()));
@@ -90,9 +83,7 @@ OCIO::GroupTransformRcPtr exposureInvariantChain(const sip::TransformSpec& spec,
   }
 
   auto group = OCIO::GroupTransform::Create();
-  group->appendTransform(matrixOperator(plane.coneFromRgb));
-  group->appendTransform(notBelowZero());
-  group->appendTransform(matrixOperator(plane.input.fromRgb * plane.coneFromRgb.inverse()));
+  group->appendTransform(matrixOperator(plane.input.fromRgb));
   group->appendTransform(OCIO::FixedFunctionTransform::Create(OCIO::FIXED_FUNCTION_XYZ_TO_xyY));
   const auto shift = [](double offset) {
     auto matrix = OCIO::MatrixTransform::Create();

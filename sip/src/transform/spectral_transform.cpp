@@ -268,9 +268,6 @@ Eigen::Matrix3d SpectralTransform::linearMatrix() const {
   return m_state->sides.rgbFromRelative * m_state->relativeSlope(m_state->solver->unclamped()) *
          m_state->sides.responseFromRgb;
 }
-Eigen::Matrix3d SpectralTransform::adaptationMatrix() const {
-  return m_state->sides.rgbFromRelative * m_state->sides.relativeFromRgb;
-}
 Eigen::Matrix3d SpectralTransform::responseFromRgb() const {
   return m_state->sides.responseFromRgb;
 }

@@ -26,9 +26,8 @@ struct ChainOptions {
 /// it back. A table that is a plain sum along its third axis is looked up by triangles of the chromaticity plane, so
 /// one exposure is as good as another and a gain goes through as a gain.
 ///
-/// Black gives black. The table covers a wide cone of colours round all that lights can have; colours beyond it come
-/// to its border before chromaticity is formed, and those that are negative as a whole to black. Finite pixels give
-/// finite results.
+/// Black gives black. Chromaticities outside what the observer can see are clamped to the border of the table; colours
+/// with a negative amount (far outside) go to black. Finite pixels give finite results.
 /// @param spec       what `transform` was made from
 OCIO::GroupTransformRcPtr exposureInvariantChain(const sip::TransformSpec& spec,
                                                  const sip::SpectralTransform& transform,

@@ -91,9 +91,6 @@ class SpectralTransform {
   /// The transform near colours where no band is clamped, nothing is limited and the scene adds nothing: all of it for
   /// the smooth scene inside linearConeCorners().
   Eigen::Matrix3d linearMatrix() const;
-  /// Plain chromatic adaptation, which the transform is limited round: of a colour of luminance above 0, taken back
-  /// through this, what the transform makes has a luminance above 0.
-  Eigen::Matrix3d adaptationMatrix() const;
   /// Corner rays, in RGB and in order round white, of the cone where linearMatrix() is exact; empty where there is
   /// none.
   std::vector<Eigen::Vector3d> linearConeCorners() const;
