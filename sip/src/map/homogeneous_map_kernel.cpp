@@ -95,10 +95,10 @@ struct Places {
   V length;  ///< largest |p|
 };
 
-HWY_INLINE Places placesOn(V px, V py, V length, int rootBits) {
+/// @param px, py, length  of pixels divided by `largest`
+HWY_INLINE Places placesOn(V px, V py, V length, V largest, int rootBits) {
   const Float d;
   const Int di;
-  // One quotient, whose rounding whole stops do not change.
   const V halfReciprocal = hn::Div(hn::Set(d, 0.5F), hn::Max(length, hn::Set(d, kSmallest)));
   const int cellBits = rootBits + Map::kMaximumDepth;
   // 1.5 more than a coordinate lies within [1, 2): the top bits of its mantissa are the cell.
@@ -109,7 +109,7 @@ HWY_INLINE Places placesOn(V px, V py, V length, int rootBits) {
   };
   const V x = hn::Mul(px, halfReciprocal);
   const V y = hn::Mul(py, halfReciprocal);
-  return {x, y, cell(x), cell(y), length};
+  return {x, y, cell(x), cell(y), hn::Mul(length, largest)};
 }
 
 constexpr int kDepthMask = (1 << Map::kDepthBits) - 1;
@@ -168,7 +168,7 @@ HWY_INLINE void applyPatch(const Map::Patch& patch, const Places& places, Mask m
 }
 
 /// Colours beyond the front face are rare (strong negatives): one lane at a time.
-HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, Mask far, Colours& result) {
+HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, V largest, Mask far, Colours& result) {
   const Float d;
   HWY_ALIGN std::array<std::array<float, kMostLanes>, 3> lanes;
   hn::Store(px, d, lanes[0].data());
@@ -183,7 +183,7 @@ HWY_NOINLINE void applyFar(const Map& map, V px, V py, V pz, Mask far, Colours& 
     }
     const std::size_t face = 2 * axis + (p[axis] > 0.0F ? 0 : 1);
     const Places places = placesOn(hn::Set(d, p[(axis + 1) % 3]), hn::Set(d, p[(axis + 2) % 3]),
-                                   hn::Set(d, std::abs(p[axis])), Map::kRootBits[face]);
+                                   hn::Set(d, std::abs(p[axis])), largest, Map::kRootBits[face]);
     const Mask own = hn::RebindMask(d, hn::Eq(hn::Iota(Int(), 0), hn::Set(Int(), static_cast<std::int32_t>(lane))));
     applyPatch(patchOf(map, face, hn::GetLane(places.column), hn::GetLane(places.row)), places, own, result);
     far = hn::AndNot(own, far);
@@ -237,6 +237,12 @@ HWY_INLINE bool begin(const Map& map, const float* source, float* destination, P
     store(result, a, destination);
     return false;
   }
+  // Quotients, rounded once, are the same at every exposure to the last bit, and so is all that follows from them: else
+  // a steep transform would show the rounding of the place.
+  const V largest = hn::Max(hn::Max(hn::Abs(r), hn::Abs(g)), hn::Max(hn::Abs(b), hn::Set(d, kSmallest)));
+  r = hn::Div(r, largest);
+  g = hn::Div(g, largest);
+  b = hn::Div(b, largest);
   const float* cube = map.cubeFromRgb.data();
   const V px = dot(cube, r, g, b);
   const V py = dot(cube + 3, r, g, b);
@@ -244,9 +250,9 @@ HWY_INLINE bool begin(const Map& map, const float* source, float* destination, P
   const Mask front = hn::Ge(pz, hn::Max(hn::Abs(px), hn::Abs(py)));
   const Mask far = hn::AndNot(front, rest);
   if (HWY_UNLIKELY(!hn::AllFalse(d, far))) {
-    applyFar(map, px, py, pz, far, result);
+    applyFar(map, px, py, pz, largest, far, result);
   }
-  const Places places = placesOn(px, py, pz, Map::kRootBits[Map::kFrontFace]);
+  const Places places = placesOn(px, py, pz, largest, Map::kRootBits[Map::kFrontFace]);
   pending = {places, patchesOn(map, places), hn::And(rest, front), result, a, destination};
   return true;
 }

@@ -11,7 +11,7 @@ namespace metamer::sip {
 inline constexpr int kMinimumBandCount = 4;
 /// Holds a tenth of a CIEDE2000 (99th percentile) against the converged engine for spiky lights too; 81 bands do for
 /// smooth ones.
-inline constexpr int kDefaultBandCount = 161;
+inline constexpr int kDefaultBandCount = 201;
 inline constexpr int kConvergedBandCount = 401;
 
 /// Centre of a band in nm: 380 + 400 band / (bandCount - 1).
