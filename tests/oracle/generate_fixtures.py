@@ -315,6 +315,15 @@ def generate(folder: Path) -> None:
         ):
             write_fixture(colour, folder, by)
         write_ocio(folder)
+    write_bounded_engine(folder)
+
+
+def write_bounded_engine(folder: Path) -> None:
+    """Write colours through the transform as bounded_engine.py has it."""
+    sys.path.insert(0, str(FOLDER))
+    import bounded_engine
+
+    write(folder, "bounded_engine.csv", "bounded_engine.py", bounded_engine.COLUMNS, bounded_engine.rows(generator(18)))
 
 
 def missing_package() -> str | None:

@@ -55,7 +55,7 @@ TEST(HomogeneousMapTest, AgainstItsTransform) {
     std::string name = inputLight;
     name.append(" -> ").append(outputLight);
     const TransformSpec spec = specOf(inputLight, outputLight);
-    const SpectralTransform transform(spec);
+    const SpectralTransform transform(spec, 81);
     const std::clock_t start = std::clock();
     const HomogeneousMap map = buildHomogeneousMap(transform);
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -121,7 +121,7 @@ TEST(HomogeneousMapTest, ExposureInvariant) {
     pixels[i] = i % 4 == 3 ? 1.0F : static_cast<float>(shortened(pixels[i]));
   }
   for (const auto& [inputLight, outputLight] : lightPairs()) {
-    const HomogeneousMap map = buildHomogeneousMap(SpectralTransform(specOf(inputLight, outputLight)));
+    const HomogeneousMap map = buildHomogeneousMap(SpectralTransform(specOf(inputLight, outputLight), 81));
     std::vector<float> expected(pixels.size());
     map.apply(pixels, expected);
     double largest = 0.0;
