@@ -134,7 +134,7 @@ TEST(SpectralTransformTest, PathsAcrossTheLocusAndThePurpleLineDoNotJump) {
     const SpectralTransform transform(spec, 41);
     const RelativeColours relative(transform);
     for (const Path& path : paths) {
-      constexpr int kSteps = 1500;
+      constexpr int kSteps = 600;
       double largestStep = 0.0;
       double largestSlope = 0.0;
       Vector3d colour = Vector3d::Zero();
