@@ -11,12 +11,12 @@
 #include <cstring>
 #include <memory>
 
-#include "vector/instruction_sets.h"
 #include "metamer/sip/homogeneous_map.h"
 #include "metamer/sip/recipe.h"
 #include "metamer/sip/spectral_transform.h"
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral/input_error.h"
+#include "vector/instruction_sets.h"
 
 using namespace metamer;
 

@@ -162,6 +162,11 @@ def page(results, name):
     title, opening = PAGES[name]
     lines = [f"# {title}", "", opening, "", "Written by bench/report.py from [bench.json](bench.json); "
              "`script/bench` measures anew. At the end: [what was asked, and what is reached](#asked-and-reached)."]
+    # Sections that an older release measured say so.
+    releases = sorted({result["release"] for result in results.values() if "release" in result})
+    if releases:
+        lines += ["", f"**These figures are of release {', '.join(releases)}**: the engine has been replaced since "
+                  "([engine.md](engine.md)), and they are to be measured anew."]
     if fronts.sources(results):
         lines += ["", f"![The fronts](images/bench_{fronts.PICTURE})"]
     for section, result in ordered(results).items():

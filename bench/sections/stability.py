@@ -119,7 +119,7 @@ TABLE = ("| light | condition | relaxation | matrix gain | worst gain over it | 
 
 
 def _light_row(r):
-    return (f"| {r['light']} | {r['condition']:.3g} | {r['relaxation']:.2g} | {r['matrix_gain']:.3g} "
+    return (f"| {r['light']} | {r['condition']:.3g} | {r.get('relaxation', 0.0):.2g} | {r['matrix_gain']:.3g} "
             f"| {r['gain_over_matrix']:.3g} | {r['p99']:.3f} | {r['max']:.2f} |")
 
 

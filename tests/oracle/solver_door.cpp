@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shim to an internal of the engine, the solver behind a transform, so that quadratic programming libraries can judge it
-// on the same numbers: rounds, fall-backs and the course notes' loop are no part of the Python package.
+// A shim to an internal of the engine, the solver behind a transform, so that quadratic programming libraries can judge
+// it on the same numbers: rounds, fall-backs and the course notes' loop are no part of the Python package.
 #include <algorithm>
 #include <chrono>
 

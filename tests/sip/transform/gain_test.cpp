@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "judge/spectral_locus.h"
+#include "metamer/sip/spectral_locus.h"
 #include "metamer/spectral/colorimetry.h"
 #include "sip/transform/transform_fixture.h"
 
