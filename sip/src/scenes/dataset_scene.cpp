@@ -16,6 +16,7 @@ namespace {
 
 /// Samples darker than this fraction of white carry no usable chromaticity.
 constexpr double kDarkest = 1e-4;
+constexpr double kRounding = 1e-12;
 
 }  // namespace
 
@@ -81,8 +82,10 @@ DatasetScene::DatasetScene(const SoftBoundSolver& solver, const Eigen::MatrixXd&
 }
 
 BandTriple DatasetScene::piece(const Eigen::Vector3d& response) const {
+  // On an edge or a corner rounding may put a colour outside every triangle that it belongs to.
+  const double sum = response.sum();
   for (std::size_t t = 0; t < m_triangles.size(); ++t) {
-    if ((m_barycentric[t] * response).minCoeff() >= 0.0) {
+    if ((m_barycentric[t] * response).minCoeff() >= -kRounding * sum) {
       const auto& corners = m_triangles[t];
       BandTriple deviations(m_deviations.rows(), 3);
       deviations << m_deviations.col(corners[0]), m_deviations.col(corners[1]), m_deviations.col(corners[2]);
@@ -90,7 +93,6 @@ BandTriple DatasetScene::piece(const Eigen::Vector3d& response) const {
     }
   }
   // Outside: the nearest place on the hull, in the plane of chromaticity.
-  const double sum = response.sum();
   const Eigen::Vector2d place = response.head<2>() / sum;
   double nearest = std::numeric_limits<double>::infinity();
   std::array<int, 2> best = m_hull.front();
