@@ -20,13 +20,15 @@ DOMAIN = np.arange(380.0, 781.0)
 BANDS = 81
 # Price of a band below zero, for bands this far apart.
 BOUND_PRICE = 0.2 * (400 / (BANDS - 1)) ** 2
-# The kernel's reach in standard deviations, and the noise of samples over its 1.
-REACH, NOISE, SKIN_NOISE = 2.0, 0.2, 0.1
+# The kernel's reach in standard deviations, and the noise of samples over its 1: twice that at a mean of DARK.
+REACH, NOISE, SKIN_NOISE, DARK = 2.0, 0.2, 0.1, 0.05
 LEAST_VARIANCE = 1e-4
 TWIN_RMS = 0.02
 # Up, down and aside, of a colour's luminance (aside: or an eighth of X or Z), and the most that they are raised to.
 LEAST_REACH = np.array([3.0, 0.8, 4.0])
 MOST_REACH = np.array([3.5, 0.95, 12.0])
+# Of X and Z, what may be lost.
+MOST_LOSS = 0.9
 SURFACE_SETS = (
     "colorchecker",
     "colorchecker_iso_17321_1",
@@ -194,6 +196,7 @@ class MeasuredScene:
         self.whitening = vectors @ np.diag(np.maximum(values, LEAST_VARIANCE) ** -0.5) @ vectors.T
         self.places = self.place(responses)
         deviations = (samples - responses @ smooth.unclamped.T) / responses.mean(axis=1, keepdims=True)
+        noise = noise * (1.0 + (DARK / responses.mean(axis=1)) ** 2)
         kernel = self.kernel(self.places) + np.diag(noise)
         self.coefficients = np.linalg.solve(kernel, deviations)
 
@@ -271,13 +274,14 @@ class Engine:
 
     def limited(self, relative: np.ndarray, d: np.ndarray) -> np.ndarray:
         """Return the colour with as much of the difference as the limit leaves."""
-        up, down, aside = self.reach
-        most = max(d[1] / up, -d[1] / down, abs(d[0]) / aside, abs(d[2]) / aside)
-        shares = []
-        for size in self.sizes(relative):
-            s = min(2.0, size / most) if most > 0.0 else 2.0
-            shares.append(s - s * s / 4.0)
-        return relative + np.array([shares[1], shares[0], shares[1]]) * d
+        up, down, sides = self.reach
+        most = max(d[1] / up, -d[1] / down, abs(d[0]) / sides, abs(d[2]) / sides)
+        luminance, aside = (min(2.0, size / most) if most > 0.0 else 2.0 for size in self.sizes(relative))
+        left = np.array([aside, luminance, aside])
+        for k in (0, 2):
+            if d[k] < 0.0:
+                left[k] = min(left[k], MOST_LOSS * max(relative[k], 0.0) / -d[k])
+        return relative + (left - left**2 / 4.0) * d
 
     def apply(self, rgb: np.ndarray, adaptation: float) -> np.ndarray:
         """Return the result of one colour at a degree of adaptation."""
