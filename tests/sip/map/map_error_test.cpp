@@ -96,7 +96,7 @@ Worst worstOf(const Pairing& pairing) {
 TEST(HomogeneousMapTest, OfTheMeasuredSceneAgainstItsTransform) {
   for (const auto& pair : {lightPairs()[1], lightPairs()[3]}) {
     const TransformSpec spec = naturalSpecOf(pair.first, pair.second);
-    const SpectralTransform transform(spec, 41);
+    const SpectralTransform transform(spec);
     const HomogeneousMap map = buildHomogeneousMap(transform);
     EXPECT_EQ(map.linearNormalCount, 0);
     const ErrorProtocol protocol(spec, chart(), {1024, 96, 0, 0, false});

@@ -67,7 +67,7 @@ struct HomogeneousMap {
 };
 
 /// Default tolerance of a map: what keeps its 99th percentile under a tenth of a CIEDE2000.
-inline constexpr double kDefaultMapTolerance = 0.07;
+inline constexpr double kDefaultMapTolerance = 0.06;
 
 /// Calls body(0) ... body(count - 1), in any order and on any threads, and returns when all have returned.
 using ParallelFor = std::function<void(int count, const std::function<void(int)>& body)>;
