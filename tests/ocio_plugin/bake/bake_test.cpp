@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "metamer/ocio/pixel_processor.h"
+#include "metamer/sip/recipe.h"
 #include "sip/sip_fixture.h"
 #include "spectral/temporary_folder.h"
 
@@ -108,7 +109,7 @@ TEST(BakeTest, SampledCubeNodesAreExact) {
   options.fitted = false;
   bakeFile(recipeOf("D65", "HP1"), testLibrary(), folder / "a.cube", {}, options);
   const auto processor = PixelProcessor::fromFile(folder / "a.cube");
-  const sip::SpectralTransform engine(sip::specOf("D65", "HP1"), 161);
+  const sip::SpectralTransform engine(sip::resolve(recipeOf("D65", "HP1"), testLibrary()));
   for (const auto& node : {std::array{12, 14, 16}, std::array{20, 9, 11}, std::array{14, 14, 14}}) {
     std::array<float, 4> pixel{};
     Eigen::Vector3d light;
