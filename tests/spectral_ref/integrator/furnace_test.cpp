@@ -35,9 +35,9 @@ std::string furnace(int wavelengths, const std::string& shapes) {
 }
 
 TEST_P(FurnaceTest, IsOneInEveryBin) {
-  const Film film = rendered(sceneOf(furnace(GetParam().wavelengths, GetParam().shapes)), 1024);
+  const Film film = rendered(sceneOf(furnace(GetParam().wavelengths, GetParam().shapes)), 4096);
   // The same wavelengths with nothing there: what is left is the light that the shapes made or lost.
-  const Film empty = rendered(sceneOf(furnace(GetParam().wavelengths, "  []\n")), 1024);
+  const Film empty = rendered(sceneOf(furnace(GetParam().wavelengths, "  []\n")), 4096);
   double largest = 0;
   for (int bin = 0; bin < film.format().bins.count; ++bin) {
     largest = std::max(largest, std::abs(meanRadiance(film, bin) / meanRadiance(empty, bin) - 1.0));
