@@ -109,7 +109,7 @@ TEST(BakeTest, SampledCubeNodesAreExact) {
   options.fitted = false;
   bakeFile(recipeOf("D65", "HP1"), testLibrary(), folder / "a.cube", {}, options);
   const auto processor = PixelProcessor::fromFile(folder / "a.cube");
-  const sip::SpectralTransform engine(sip::resolve(recipeOf("D65", "HP1"), testLibrary()));
+  const sip::SpectralTransform engine(sip::resolve(recipeOf("D65", "HP1"), testLibrary()), 161);
   for (const auto& node : {std::array{12, 14, 16}, std::array{20, 9, 11}, std::array{14, 14, 14}}) {
     std::array<float, 4> pixel{};
     Eigen::Vector3d light;
