@@ -81,7 +81,12 @@ class Formats(unittest.TestCase):
             reference = "Color Transform Format" if name == "Color Transform Format" else "iridas_cube"
             if self.has_prelut[name]:
                 reference = "Academy/ASC Common LUT Format"
-            error = colour.delta_E(lab(baked[reference, "2.1"]), lab(result), method="CIE 2000")
+            wanted = baked[reference, "2.1"]
+            error = colour.delta_E(lab(wanted), lab(result), method="CIE 2000")
+            if name in ("flame", "lustre"):
+                # Whole numbers hold nothing below zero: sodium's own dark blues are bent in there, and differ by that.
+                error = error[wanted.min(axis=1) > 0.02]
+                self.assertGreater(len(error), 500)
             print(f"{name:32s} OCIO {release:7s} dE2000 mean {error.mean():.5f} max {error.max():.5f}")
             # Twelve bits of ACEScct are half a hundredth of a stop: below a tenth of a difference but in dark channels.
             self.assertLess(error.max(), 0.3 if name in ("flame", "lustre") else 0.002, (name, release))
