@@ -43,6 +43,7 @@ OBSERVERS = {
     "Canon 5D MkII (fit)",
 }
 REFLECTANCE_COUNTS = {
+    "model skins": 100,
     "colorchecker": 24,
     "colorchecker ohta": 24,
     "colorchecker iso 17321-1": 24,
