@@ -30,7 +30,8 @@ class Validate(LutgenTest):
                 self.assertLess(abs(scene["engine"] - scene["metamerism"]), scene["noise"], name)
             self.assertLess(scene["representation"], 0.05, name)
         self.assertLess(scenes["smooth objects"]["metamerism"], 0.001)
-        self.assertGreater(scenes["chart"]["metamerism"], 0.5)
+        # The natural scene knows the chart's own patches, and still smooths between them.
+        self.assertGreater(scenes["chart"]["metamerism"], 0.3)
         self.assertGreater(scenes["box"]["interreflection"], 0.05)
         self.assertLess(report["led_wall"]["corrected"], 0.7 * report["led_wall"]["driven_only"])
 
