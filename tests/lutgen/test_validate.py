@@ -32,7 +32,8 @@ class Validate(LutgenTest):
         self.assertLess(scenes["smooth objects"]["metamerism"], 0.001)
         # The natural scene knows the chart's own patches, and still smooths between them.
         self.assertGreater(scenes["chart"]["metamerism"], 0.3)
-        self.assertGreater(scenes["box"]["interreflection"], 0.05)
+        # Light from wall to wall changes what is left, up or down.
+        self.assertGreater(abs(scenes["box"]["interreflection"]), 0.05)
         self.assertLess(report["led_wall"]["corrected"], 0.7 * report["led_wall"]["driven_only"])
 
     def test_threads_change_no_bit(self):
