@@ -24,6 +24,7 @@ SECTIONS = {
     "solver": ("One smoothest spectrum", "performance"),
     "build": ("Building the homogeneous map", "performance"),
     "kernel": ("The map's kernel beside OpenColorIO", "performance"),
+    "releases": ("The linked OpenColorIO beside an older one", "performance"),
     "cube": ("Baking cubes", "performance"),
     "transforms": ("Error against time, every representation", "accuracy"),
     "bands": ("How many bands", "accuracy"),

@@ -20,7 +20,7 @@ import PyOpenColorIO as ocio  # noqa: E402
 import report  # noqa: E402
 import timing  # noqa: E402
 from door import Door  # noqa: E402
-from older_ocio import OlderOcio  # noqa: E402
+from releases import Release  # noqa: E402
 
 REPOSITORY = Path(__file__).resolve().parent.parent
 
@@ -30,7 +30,8 @@ class Context:
     """What every section needs."""
 
     door: Door
-    older_ocio: OlderOcio
+    linked_ocio: Release
+    older_ocio: Release
     bin_folder: Path
     rounds: int
 
@@ -47,7 +48,7 @@ def main():
     os.environ.setdefault("METAMER_DATA", str(REPOSITORY / "data"))
     library = bin_folder.parent / "lib" / "libmetamer_bench_door.so"
     door = Door(library)
-    context = Context(door, OlderOcio(library), bin_folder, arguments.rounds)
+    context = Context(door, Release(library.parent, "linked"), Release(library.parent, "older"), bin_folder, arguments.rounds)
     arguments.out.mkdir(parents=True, exist_ok=True)
     file = arguments.out / "bench.json"
     # Sections keep their last figures until they are run again.

@@ -130,6 +130,8 @@ TARGETS = (
     Target("kernel", "map's p99 over the cubes', largest", "<=", 0.1, _map_p99_share),
     Target("kernel", "map against converged, p99, largest", "<=", 0.1, _map_error("p99")),
     Target("kernel", "map against converged, max, largest", "<=", 1.0, _map_error("max")),
+    Target("releases", "linked OpenColorIO's speed over 2.1's, a .clf of log + 33³, least", ">=", 4,
+           lambda f: _least(row["linked_is_faster_by"] for row in f["rows"] if row["file"].startswith("log +") and row["logarithm"] == "fast")),
     Target("cube", "33³ fitted behind a prelut, s", "<=", 3, _cube_seconds("fitted, prelut", 33)),
     Target("cube", "33³ sampled, s", "<=", 0.2, _cube_seconds("sampled", 33), WHOLE_CALL),
     Target("cube", "65³ written (sampled), s", "<=", 1, _cube_seconds("sampled", 65), WHOLE_CALL),

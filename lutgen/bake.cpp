@@ -70,7 +70,7 @@ ocio::BakeOptions optionsOf(const BakeArguments& arguments, const ocio::LutForma
     options.highestStop = arguments.stops[1];
   }
   options.shaperSize = arguments.shaperSize;
-  options.config = arguments.config.empty() ? ocio::configFromEnvironment() : ocio::configFromFile(arguments.config);
+  options.config = arguments.config.empty() ? ocio::ConfigSource::environment() : ocio::configNamed(arguments.config);
   return options;
 }
 

@@ -23,7 +23,8 @@ int run(int argumentCount, char** arguments, const std::function<void(CLI::App&)
   // What OpenColorIO would say comes as an exception as well.
   OCIO_NAMESPACE::SetLoggingLevel(OCIO_NAMESPACE::LOGGING_LEVEL_NONE);
   CLI::App application("Colour transforms from spectra: LUT files and pictures under another light.", "lutgen");
-  application.set_version_flag("--version", std::string("lutgen ") + METAMER_VERSION);
+  application.set_version_flag(
+      "--version", std::string("lutgen ") + METAMER_VERSION + " (OpenColorIO " + OCIO_NAMESPACE::GetVersion() + ")");
   application.require_subcommand(1);
   addCommands(application);
   try {

@@ -50,7 +50,7 @@ PixelFunction conversion(const ocio::WorkingSpace& space, bool toEngine) {
 PixelFunction fromRecipe(const ApplyOptions& options) {
   const auto library = spectral::DataLibrary::openDefault();
   const sip::Recipe recipe = recipeWith(options.transform, options.overrides, library);
-  const ocio::WorkingSpace space = ocio::findWorkingSpace(recipe.space, library, ocio::configFromEnvironment());
+  const ocio::WorkingSpace space = ocio::findWorkingSpace(recipe.space, library, ocio::ConfigSource::environment());
   const auto transform = std::make_shared<const sip::SpectralTransform>(sip::resolve(recipe, library, space.engine));
   if (transform->isIdentity()) {
     return [](std::span<float>) {};

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A LUT file through the newest OpenColorIO and through the one metamer is built against."""
+"""A LUT file through the newest OpenColorIO and through an older one, the system's."""
 
 import os
 import subprocess
@@ -21,6 +21,6 @@ def newest(file, pixels):
     return result
 
 
-def built_against(file, pixels):
+def older(file, pixels):
     run = subprocess.run([BIN / "ocio_apply", file], input=pixels.tobytes(), capture_output=True, check=True)
     return np.frombuffer(run.stdout, np.float32).reshape(pixels.shape)

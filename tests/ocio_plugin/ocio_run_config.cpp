@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ocio_run_config CONFIG: every look, named transform and view of a config on the CPU, and as GPU shader text, with the
-// OCIO that metamer is built against. One line each on stdout: kind, name, and what the probe colours become.
+// OCIO that this is linked with. One line each on stdout: kind, name, and what the probe colours become.
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <array>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs every look, named transform and view of a config, in the newest OpenColorIO and in the one metamer is built with."""
+"""Runs every look, named transform and view of a config, in the newest OpenColorIO and in an older one, the system's."""
 
 import os
 import subprocess
@@ -15,7 +15,7 @@ PROBES = np.array([
 FLAGS = ocio.OptimizationFlags(int(ocio.OPTIMIZATION_DEFAULT) & ~int(ocio.OPTIMIZATION_FAST_LOG_EXP_POW))
 
 
-def built_against(config):
+def older(config):
     """(kind, name) to what the probes become; raises with OCIO's message."""
     program = Path(os.environ["METAMER_BIN"]) / "ocio_run_config"
     run = subprocess.run([program, str(config)], capture_output=True, text=True, timeout=600)

@@ -23,8 +23,6 @@ namespace {
 
 using spectral::InputError;
 
-constexpr const char* kConfigMark = ".ocio:";
-
 struct CompareArguments {
   std::string a;
   std::string b;
@@ -43,9 +41,26 @@ std::string extensionOf(const std::string& name) {
   return spectral::lowerCase(std::filesystem::path(name).extension().string());
 }
 
+bool isConfig(const std::string& name) {
+  const std::string extension = extensionOf(name);
+  return extension == ".ocio" || extension == ".ocioz" || ocio::isBuiltInConfig(name);
+}
+
+/// Where the colon of CONFIG:LOOK stands; npos where no look is named.
+std::size_t lookMark(const std::string& name) {
+  const std::string scheme = "ocio://";
+  const std::size_t start = ocio::isBuiltInConfig(name) ? scheme.size() : 0;
+  for (std::size_t at = name.find(':', start); at != std::string::npos; at = name.find(':', at + 1)) {
+    if (isConfig(name.substr(0, at))) {
+      return at;
+    }
+  }
+  return std::string::npos;
+}
+
 Kind kindOf(const std::string& name) {
   const std::string extension = extensionOf(name);
-  if (name.find(kConfigMark) != std::string::npos || extension == ".ocio") {
+  if (lookMark(name) != std::string::npos || isConfig(name)) {
     return Kind::Look;
   }
   if (extension == ".yaml" || extension == ".yml") {
@@ -60,16 +75,15 @@ Kind kindOf(const std::string& name) {
   return isPicture ? Kind::Picture : Kind::File;
 }
 
-/// CONFIG.ocio:LOOK; without a look, the one of the recipe's name that it is compared with.
+/// CONFIG:LOOK; without a look, the one of the recipe's name that it is compared with.
 ocio::ComparedTransform lookOf(const std::string& name, const std::string& recipeName,
                                const spectral::DataLibrary& library) {
-  const std::size_t mark = name.find(kConfigMark);
+  const std::size_t mark = lookMark(name);
   if (mark == std::string::npos && recipeName.empty()) {
     throw InputError(name, "look", "", "name one: " + name + ":LOOK");
   }
-  const std::string file = mark == std::string::npos ? name : name.substr(0, mark + 5);
-  const std::string look = mark == std::string::npos ? recipeName : name.substr(mark + 6);
-  return ocio::comparedLook(file, look, library);
+  const std::string look = mark == std::string::npos ? recipeName : name.substr(mark + 1);
+  return ocio::comparedLook(name.substr(0, mark), look, library);
 }
 
 class Comparer {
@@ -77,7 +91,7 @@ class Comparer {
   explicit Comparer(const CompareArguments& arguments)
       : m_arguments(arguments),
         m_library(spectral::DataLibrary::openDefault()),
-        m_config(ocio::configFromEnvironment()) {}
+        m_config(ocio::ConfigSource::environment()) {}
 
   CompareReport transforms() {
     const std::optional<sip::Recipe> recipeA = recipeOf(m_arguments.a);
@@ -177,7 +191,7 @@ class Comparer {
 
   CompareArguments m_arguments;
   spectral::DataLibrary m_library;
-  OCIO_NAMESPACE::ConstConfigRcPtr m_config;
+  ocio::ConfigSource m_config;
   spectral::RgbSpace m_space;
   int m_pictureWidth = 0;
 };

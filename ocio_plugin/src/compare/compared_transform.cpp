@@ -76,23 +76,10 @@ std::optional<CertifiedPixels> certifiedPixels(const std::filesystem::path& file
   }
 }
 
-OCIO::ConstConfigRcPtr loadConfig(const std::filesystem::path& file) {
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none)) {
-    throw spectral::MissingFileError(file.string(), "config", "", "there is no such file; check the path");
-  }
-  try {
-    return OCIO::Config::CreateFromFile(file.string().c_str());
-  } catch (const OCIO::Exception& error) {
-    throw InputError(file.string(), "config", "",
-                     std::string("cannot be read by OpenColorIO ") + OCIO::GetVersion() + ": " + error.what());
-  }
-}
-
 }  // namespace
 
 ComparedTransform comparedRecipe(const sip::Recipe& recipe, const spectral::DataLibrary& library,
-                                 const OCIO::ConstConfigRcPtr& config) {
+                                 const ConfigSource& config) {
   const WorkingSpace working = findWorkingSpace(recipe.space, library, config);
   ComparedTransform result;
   result.kind = "recipe";
@@ -105,7 +92,7 @@ ComparedTransform comparedRecipe(const sip::Recipe& recipe, const spectral::Data
 }
 
 ComparedTransform comparedFile(const std::filesystem::path& file, const LutPixels& pixels,
-                               const spectral::DataLibrary& library, const OCIO::ConstConfigRcPtr& config) {
+                               const spectral::DataLibrary& library, const ConfigSource& config) {
   ComparedTransform result;
   result.kind = "LUT file";
   result.name = file.string();
@@ -140,24 +127,22 @@ ComparedTransform comparedFile(const std::filesystem::path& file, const LutPixel
   return result;
 }
 
-ComparedTransform comparedLook(const std::filesystem::path& file, const std::string& look,
-                               const spectral::DataLibrary& library) {
-  const OCIO::ConstConfigRcPtr config = loadConfig(file);
+ComparedTransform comparedLook(const std::string& name, const std::string& look, const spectral::DataLibrary& library) {
+  const OCIO::ConstConfigRcPtr config = configNamed(name);
   std::vector<std::string> known;
   for (int k = 0; k < config->getNumLooks(); ++k) {
     known.emplace_back(config->getLookNameByIndex(k));
   }
   if (!config->getLook(look.c_str())) {
-    throw InputError(file.string(), "look", look,
-                     spectral::unknownNameRemedy(look, known, "ociocheck --iconfig " + file.string()));
+    throw InputError(name, "look", look, spectral::unknownNameRemedy(look, known, "ociocheck --iconfig " + name));
   }
   if (!config->hasRole(kInterchangeRole)) {
-    throw InputError(file.string(), "role", kInterchangeRole,
+    throw InputError(name, "role", kInterchangeRole,
                      "is missing; add it to the config: it names the config's ACES2065-1");
   }
   ComparedTransform result;
   result.kind = "look";
-  result.name = file.string() + ":" + look;
+  result.name = name + ":" + look;
   result.space = library.colourSpace("ACES2065-1").linear;
   auto transform = OCIO::LookTransform::Create();
   transform->setSrc(kInterchangeRole);
@@ -166,7 +151,7 @@ ComparedTransform comparedLook(const std::filesystem::path& file, const std::str
   try {
     result.apply = throughOcio(config->getProcessor(transform)->createGroupTransform());
   } catch (const OCIO::Exception& error) {
-    throw InputError(file.string(), "look", look, std::string("cannot be built: ") + error.what());
+    throw InputError(name, "look", look, std::string("cannot be built: ") + error.what());
   }
   return result;
 }

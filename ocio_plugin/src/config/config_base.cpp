@@ -2,7 +2,9 @@
 #include "config/config_base.h"
 
 #include <algorithm>
+#include <sstream>
 
+#include "metamer/ocio/config_source.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
@@ -39,17 +41,17 @@ bool isFound(const std::string& src, const ConfigFacts& facts, const fs::path& f
                      [&](const std::string& path) { return isThere(folder / path / src); });
 }
 
-void refuseArchives(const fs::path& base) {
-  const std::string name = spectral::lowerCase(base.string());
-  if (name.rfind("ocio:", 0) == 0) {
-    throw InputError("", "base", base.string(),
-                     "is built into OCIO; save it as a file first: python -c \"import PyOpenColorIO as o; "
-                     "print(o.Config.CreateFromBuiltinConfig('" +
-                         base.filename().string() + "').serialize())\"");
+/// A base's own text; of one of OCIO's own configs, as OCIO writes it.
+std::string textOf(const fs::path& base) {
+  if (isBuiltInConfig(base.string())) {
+    std::ostringstream text;
+    configNamed(base.string())->serialize(text);
+    return std::move(text).str();
   }
   if (base.extension() == ".ocioz") {
     throw InputError(base.string(), "base", "", "is an archive; unpack it first: ocioarchive --extract");
   }
+  return spectral::readTextFile(base);
 }
 
 bool isHere(const std::string& folder) {
@@ -59,8 +61,7 @@ bool isHere(const std::string& folder) {
 }  // namespace
 
 ConfigDocument openBaseConfig(const fs::path& base, const fs::path& result) {
-  refuseArchives(base);
-  ConfigDocument document(spectral::readTextFile(base), base.string());
+  ConfigDocument document(textOf(base), base.string());
   const ConfigFacts& facts = document.facts();
   if (facts.majorVersion < 2) {
     throw InputError(base.string(), "ocio_profile_version", std::to_string(facts.majorVersion),

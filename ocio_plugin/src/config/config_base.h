@@ -8,9 +8,9 @@
 
 namespace metamer::ocio {
 
-/// A config to add to.
+/// A config to add to: a file, or one of OCIO's own by name (ocio://default).
 /// @param result  the config that will be written: the base's files must be found from there too
-/// @throws spectral::InputError: not there, an archive, a built-in one, no config, profile 1, no role
+/// @throws spectral::InputError: not there, an archive, no config, profile 1, no role
 ///         aces_interchange, a file that is not found
 ConfigDocument openBaseConfig(const std::filesystem::path& base, const std::filesystem::path& result);
 

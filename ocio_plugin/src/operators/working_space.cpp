@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <vector>
 
 #include "metamer/ocio/pixel_processor.h"
@@ -69,7 +68,7 @@ OCIO::GroupTransformRcPtr WorkingSpace::wrapped(const OCIO::GroupTransformRcPtr&
 }
 
 WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibrary& library,
-                              const OCIO::ConstConfigRcPtr& config) {
+                              const ConfigSource& source) {
   std::vector<std::string> known;
   for (const auto& space : library.colourSpaces()) {
     known.push_back(space.name);
@@ -87,6 +86,7 @@ WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibra
       return working;
     }
   }
+  const OCIO::ConstConfigRcPtr config = source.open();
   if (config) {
     if (const auto space = config->getColorSpace(name.c_str())) {
       return configSpace(name, space, library, config);
@@ -98,26 +98,6 @@ WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibra
   throw InputError("", "space", name,
                    spectral::unknownNameRemedy(name, known, "lutgen list spaces") +
                        (config ? "" : "; for a space of a config, set $OCIO"));
-}
-
-OCIO::ConstConfigRcPtr configFromEnvironment() {
-  const char* file = std::getenv("OCIO");
-  if (file == nullptr || *file == '\0') {
-    return nullptr;
-  }
-  try {
-    return OCIO::Config::CreateFromEnv();
-  } catch (const OCIO::Exception& error) {
-    throw InputError("$OCIO", "config", file, std::string("cannot be read: ") + error.what());
-  }
-}
-
-OCIO::ConstConfigRcPtr configFromFile(const std::filesystem::path& file) {
-  try {
-    return OCIO::Config::CreateFromFile(file.string().c_str());
-  } catch (const OCIO::Exception& error) {
-    throw InputError(file.string(), "config", "", std::string("cannot be read: ") + error.what());
-  }
 }
 
 }  // namespace metamer::ocio

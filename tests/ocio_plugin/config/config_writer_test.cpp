@@ -258,7 +258,7 @@ TEST(ConfigWriterTest, BadBasesAreNamed) {
             std::string::npos);
   EXPECT_NE(error(replaced(kBase, "isdata: true", "isdata: [")).find("base.ocio:"), std::string::npos);
   ConfigOptions options;
-  for (const char* base : {"missing.ocio", "ocio://default", "config.ocioz"}) {
+  for (const char* base : {"missing.ocio", "ocio://nothing", "config.ocioz"}) {
     options.base = base;
     EXPECT_NE(errorOf([&] { write({recipeOf("one", "D65", "A")}, folder / "out.ocio", options); }).find(base),
               std::string::npos);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "metamer/ocio/certificate.h"
+#include "metamer/ocio/config_source.h"
 #include "metamer/ocio/lut_writer.h"
 #include "metamer/ocio/representation.h"
 #include "metamer/sip/recipe.h"
@@ -21,7 +22,7 @@ struct BakeOptions {
   int size = 0;        ///< nodes along a side; 0: 65 for a chain, 33 for a cube. The most, where there is a tolerance
   bool fitted = true;  ///< tables solved for least error; false: the transform's values
   std::optional<spectral::LogEncoding> shaper = {};  ///< of cubes of a linear space; empty: ACEScct
-  OCIO::ConstConfigRcPtr config = {};                ///< where spaces that are not built in are looked up; may be null
+  ConfigSource config = {};                          ///< where spaces that are not built in are looked up
   /// 99th percentile of CIEDE2000 to hold, over the gamut and exposures that the certificate states, with the cheapest
   /// that does: nothing, a matrix, a table of few nodes, of more. Not together with `representation`.
   std::optional<double> tolerance = {};

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "metamer/ocio/config_source.h"
 #include "metamer/sip/comparison.h"
 #include "metamer/sip/error_protocol.h"
 #include "metamer/sip/recipe.h"
@@ -30,9 +31,9 @@ struct ComparedTransform {
 };
 
 /// The converged engine (401 bands) of a recipe.
-/// @param config  where spaces that are not built in are looked up; may be null
+/// @param config  where spaces that are not built in are looked up
 ComparedTransform comparedRecipe(const sip::Recipe& recipe, const spectral::DataLibrary& library,
-                                 const OCIO::ConstConfigRcPtr& config);
+                                 const ConfigSource& config);
 
 /// What a LUT file's pixels are, where no certificate beside it tells.
 struct LutPixels {
@@ -43,11 +44,12 @@ struct LutPixels {
 /// A LUT file. Its certificate, FILE.json, tells what its pixels are; `pixels` where there is none.
 /// @throws spectral::InputError: no such file, OCIO cannot read it, a certificate that is none
 ComparedTransform comparedFile(const std::filesystem::path& file, const LutPixels& pixels,
-                               const spectral::DataLibrary& library, const OCIO::ConstConfigRcPtr& config);
+                               const spectral::DataLibrary& library, const ConfigSource& config);
 
 /// A look of a config, on linear ACES2065-1.
+/// @param config  file, archive, or a name of OCIO's own (ocio://default)
 /// @throws spectral::InputError: OCIO cannot load the config, no role aces_interchange, no such look (near names)
-ComparedTransform comparedLook(const std::filesystem::path& config, const std::string& look,
+ComparedTransform comparedLook(const std::string& config, const std::string& look,
                                const spectral::DataLibrary& library);
 
 /// `transform` on linear pixels of another space.

@@ -3,10 +3,10 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
+#include "metamer/ocio/config_source.h"
 #include "metamer/spectral/data_library.h"
 
 namespace metamer::ocio {
@@ -29,17 +29,10 @@ struct WorkingSpace {
 };
 
 /// A built-in space by its name, else a colour space (name, alias or role) of a config.
-/// @param config  may be null: built-in spaces only
-/// @throws spectral::InputError: unknown (near names listed); a config without the role aces_interchange; a space that
-///         holds data
+/// @param source  opened only where the space is not built in; none: built-in spaces only
+/// @throws spectral::InputError: unknown (near names listed); a config that cannot be read, or is without the role
+///         aces_interchange; a space that holds data
 WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibrary& library,
-                              const OCIO::ConstConfigRcPtr& config);
-
-/// The config that $OCIO names, null where it is not set.
-/// @throws spectral::InputError where it cannot be read
-OCIO::ConstConfigRcPtr configFromEnvironment();
-
-/// @throws spectral::InputError where it is not there or cannot be read
-OCIO::ConstConfigRcPtr configFromFile(const std::filesystem::path& file);
+                              const ConfigSource& source);
 
 }  // namespace metamer::ocio

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A C door to the OpenColorIO that metamer is linked with: LUT files on pixels.
+// A C door to one release of OpenColorIO: LUT files on pixels. Built for the release that is linked and for an older
+// one.
 #include <OpenColorIO/OpenColorIO.h>
 
-#include <algorithm>
 #include <memory>
 
-#include "metamer/ocio/pixel_processor.h"
-
-using namespace metamer;
 namespace OCIO = OCIO_NAMESPACE;
 
 namespace {
@@ -29,12 +26,14 @@ OCIO::LogCameraTransformRcPtr acescct(OCIO::TransformDirection direction) {
 
 }  // namespace
 
-extern "C" const char* metamerLinkedOcioVersion() {
+extern "C" const char* metamerOcioVersion() {
   return OCIO::GetVersion();
 }
 
-/// A processor of a file; `logInOut`: between ACEScct and its inverse. Lives as long as the program.
-extern "C" void* metamerFile(const char* path, int logInOut) {
+/// A processor of a file; `logInOut`: between ACEScct and its inverse; `exactLog`: with the exact logarithm, as metamer
+/// runs a file, not the fast one that programs have by default. Lives as long as the program. Null where OCIO refuses
+/// the file.
+extern "C" void* metamerFile(const char* path, int logInOut, int exactLog) try {
   auto file = OCIO::FileTransform::Create();
   file->setSrc(path);
   file->setInterpolation(OCIO::INTERP_BEST);
@@ -46,10 +45,20 @@ extern "C" void* metamerFile(const char* path, int logInOut) {
   if (logInOut != 0) {
     group->appendTransform(acescct(OCIO::TRANSFORM_DIR_INVERSE));
   }
-  return std::make_unique<ocio::PixelProcessor>(group).release();
+  const auto exact =
+      static_cast<OCIO::OptimizationFlags>(OCIO::OPTIMIZATION_DEFAULT & ~OCIO::OPTIMIZATION_FAST_LOG_EXP_POW);
+  const auto flags = exactLog != 0 ? exact : OCIO::OPTIMIZATION_DEFAULT;
+  const auto processor = OCIO::Config::CreateRaw()->getProcessor(group);
+  return std::make_unique<OCIO::ConstCPUProcessorRcPtr>(
+             processor->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, flags))
+      .release();
+} catch (const OCIO::Exception&) {
+  return nullptr;
 }
 
 extern "C" void metamerFileApply(void* processor, const float* source, float* destination, std::size_t pixels) {
-  std::copy_n(source, 4 * pixels, destination);
-  static_cast<ocio::PixelProcessor*>(processor)->apply({destination, 4 * pixels});
+  // OCIO reads the source only.
+  OCIO::PackedImageDesc from(const_cast<float*>(source), static_cast<long>(pixels), 1, 4);
+  OCIO::PackedImageDesc to(destination, static_cast<long>(pixels), 1, 4);
+  (*static_cast<OCIO::ConstCPUProcessorRcPtr*>(processor))->apply(from, to);
 }

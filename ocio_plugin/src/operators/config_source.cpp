@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/ocio/config_source.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <utility>
+
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/missing_file_error.h"
+#include "metamer/spectral/text.h"
+
+namespace metamer::ocio {
+namespace {
+
+constexpr const char* kBuiltIn = "ocio://";
+
+/// @param where, value  what an error names
+OCIO::ConstConfigRcPtr read(const std::string& name, const std::string& where, const std::string& value,
+                            const std::string& remedy) {
+  std::error_code none;
+  if (!isBuiltInConfig(name) && !std::filesystem::is_regular_file(name, none)) {
+    throw spectral::MissingFileError(where, "config", value, "there is no such file; " + remedy);
+  }
+  try {
+    return OCIO::Config::CreateFromFile(name.c_str());
+  } catch (const OCIO::Exception& error) {
+    throw spectral::InputError(
+        where, "config", value,
+        std::string("cannot be read by OpenColorIO ") + OCIO::GetVersion() + ": " + error.what() + "; " + remedy);
+  }
+}
+
+}  // namespace
+
+struct ConfigSource::State {
+  std::string environment;
+  std::once_flag isOpened;
+  OCIO::ConstConfigRcPtr config;
+};
+
+ConfigSource::ConfigSource() : ConfigSource(OCIO::ConstConfigRcPtr()) {}
+
+ConfigSource::ConfigSource(std::nullptr_t /*none*/) : ConfigSource() {}
+
+ConfigSource::ConfigSource(OCIO::ConstConfigRcPtr config) : m_state(std::make_shared<State>()) {
+  m_state->config = std::move(config);
+}
+
+ConfigSource::ConfigSource(std::string environment) : m_state(std::make_shared<State>()) {
+  m_state->environment = std::move(environment);
+}
+
+ConfigSource ConfigSource::environment() {
+  const char* name = std::getenv("OCIO");
+  return ConfigSource(std::string(name == nullptr ? "" : name));
+}
+
+OCIO::ConstConfigRcPtr ConfigSource::open() const {
+  State& state = *m_state;
+  if (!state.environment.empty()) {
+    std::call_once(state.isOpened, [&state] {
+      state.config = read(state.environment, "$OCIO", state.environment,
+                          "set $OCIO to a config that is there, or name a built-in space (lutgen list spaces)");
+    });
+  }
+  return state.config;
+}
+
+bool isBuiltInConfig(const std::string& name) {
+  return spectral::lowerCase(name).rfind(kBuiltIn, 0) == 0;
+}
+
+OCIO::ConstConfigRcPtr configNamed(const std::string& name) {
+  return read(name, name, "", "name a config that is there");
+}
+
+}  // namespace metamer::ocio
