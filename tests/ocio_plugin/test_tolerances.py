@@ -2,23 +2,27 @@
 """What `--tolerance` promises, measured again by other means on other probes.
 
 The files are read by the newest OpenColorIO, differences are colour-science's, the lights are colour-science's own, and
-the truth is quadprog's: the smoothest spectrum of each colour as a dense quadratic program of 201 bands, which shares no
-code with metamer. By default a few recipes at one tolerance; METAMER_LONG=1 has all twelve at 0.5, 1 and 2.
+the truth is tests/oracle/bounded_engine.py: the definition by dense algebra with 201 bands, which shares no code with
+metamer. By default a few recipes at one tolerance; METAMER_LONG=1 has all twelve at 0.5, 1 and 2.
 """
 
 import json
 import os
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
 import colour
+import matplotlib.path
 import numpy as np
-import quadprog
 from scipy.stats import qmc
 
 from ocio_releases import BIN, newest
+
+sys.path.append(str(Path(__file__).parents[1] / "oracle"))
+import bounded_engine  # noqa: E402
 
 LONG = bool(os.environ.get("METAMER_LONG"))
 BANDS = 201
@@ -40,74 +44,34 @@ RECIPES = [
     ("D50", "HP1", 0.5, ".cube", (0, 5)),
 ]
 SHORT = [0, 3, 6, 8]
-WAVELENGTHS = np.arange(380, 781)
 AP1 = np.array([[0.713, 0.293], [0.165, 0.830], [0.128, 0.044]])
 WHITE_XY = np.array([0.32168, 0.33767])
-WHITE = colour.xy_to_XYZ(WHITE_XY)
 XYZ_FROM_RGB = colour.RGB_COLOURSPACES["ACEScg"].matrix_RGB_to_XYZ
-CONES = colour.adaptation.CHROMATIC_ADAPTATION_TRANSFORMS["Von Kries"]
 
 
-def weights(light):
-    """3 x BANDS: integrals of hat functions at one nanometre; the perfect reflector has Y = 1."""
-    power, cmfs = colour.SDS_ILLUMINANTS[light], colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
-    curves = np.stack([np.interp(WAVELENGTHS, cmfs.wavelengths, cmfs.values[:, k]) for k in range(3)])
-    samples = curves * np.interp(WAVELENGTHS, power.wavelengths, power.values)
-    position = (WAVELENGTHS - 380) * (BANDS - 1) / 400
-    hats = np.maximum(0, 1 - np.abs(position[:, None] - np.arange(BANDS)))
-    result = samples @ hats
-    return result / result[1].sum()
+def locus():
+    """Chromaticities of all wavelengths, closed by the line of purples."""
+    curves = bounded_engine.observer(bounded_engine.EYE)
+    # Where the eye sees next to nothing, chromaticities are noise.
+    curves = curves[curves.sum(axis=1) > 1e-3 * curves.sum(axis=1).max()]
+    return matplotlib.path.Path(curves[:, :2] / curves.sum(axis=1, keepdims=True))
 
 
-def adapt(gain):
-    return np.linalg.inv(CONES) @ np.diag(gain) @ CONES
-
-
-class Truth:
-    """A recipe by quadratic programming."""
-
-    def __init__(self, source, destination, adaptation):
-        self.input, self.output = weights(source), weights(destination)
-        white_in, white_out = (CONES @ w.sum(axis=1) for w in (self.input, self.output))
-        white = CONES @ WHITE
-        self.to_input = adapt(white_in / white) @ XYZ_FROM_RGB
-        gain = adaptation * white / white_out + (1 - adaptation) * white / white_in
-        self.from_output = np.linalg.inv(XYZ_FROM_RGB) @ adapt(gain)
-        steps = np.diff(np.eye(BANDS), axis=0)
-        self.normal = self.input / self.input.sum(axis=1, keepdims=True)
-        # The constraints' squares make the matrix definite, and are zero where they hold.
-        self.objective = steps.T @ steps + 10 * self.normal.T @ self.normal
-        self.constraints = np.hstack([self.normal.T, np.eye(BANDS)])
-
-    def __call__(self, rgb):
-        """Nothing where no reflectance makes the colour."""
-        scaled = self.to_input @ rgb / self.input.sum(axis=1)
-        try:
-            spectrum = quadprog.solve_qp(self.objective, 10 * self.normal.T @ scaled, self.constraints,
-                                         np.r_[scaled, np.zeros(BANDS)], 3)[0]
-        except ValueError:
-            return None
-        return self.from_output @ (self.output @ np.maximum(spectrum, 0))
-
-
-def probes(truth, seed):
-    """Colours spread over AP1 at Y = 0.18, and where they go.
+def probes(engine, adaptation, seed):
+    """Colours of lights spread over AP1 at Y = 0.18, and where they go.
 
     Evenly, but not where metamer's own probes lie: by chance, a percentile that depends on how many of a thousand fall
     into one corner of the gamut would itself be uncertain by a third.
     """
-    sequence = qmc.Halton(2, seed=seed)
-    light, expected = [], []
+    sequence, border = qmc.Halton(2, seed=seed), locus()
+    light = []
     while len(light) < COUNT:
         u, v = sequence.random()[0]
         u, v = (1 - u, 1 - v) if u + v > 1 else (u, v)
         xy = AP1[0] + u * (AP1[1] - AP1[0]) + v * (AP1[2] - AP1[0])
-        rgb = np.linalg.inv(XYZ_FROM_RGB) @ (0.18 * colour.xy_to_XYZ(xy))
-        result = truth(rgb)
-        if result is not None:
-            light.append(rgb)
-            expected.append(result)
-    return np.array(light), np.array(expected)
+        if border.contains_point(xy):
+            light.append(np.linalg.inv(XYZ_FROM_RGB) @ (0.18 * colour.xy_to_XYZ(xy)))
+    return np.array(light), np.array([engine.apply(rgb, adaptation) for rgb in light])
 
 
 def lab(rgb):
@@ -144,7 +108,8 @@ class Tolerances(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for index in chosen:
                 source, destination, adaptation, extension, stops = RECIPES[index]
-                light, expected = probes(Truth(source, destination, adaptation), index)
+                engine = bounded_engine.Engine(source, destination, bounded_engine.EYE, "natural", BANDS)
+                light, expected = probes(engine, adaptation, index)
                 for tolerance in (0.5, 1, 2) if LONG else (1,):
                     # A name of its own: OCIO keeps what it has read by name.
                     file = Path(folder) / f"{index}_{tolerance}{extension}"

@@ -1,6 +1,6 @@
 """The spectral transform a second time, with dense algebra and numpy alone: nothing of it comes from metamer.
 
-The tables are those of data/. One engine is the pair of pipelines with 81 bands: the smoothest spectrum with a soft
+The tables are those of data/. One engine is a pair of pipelines with 81 bands, or as many as asked for: the smoothest spectrum with a soft
 bound below (course notes, section 5.5), the deviations of measured surfaces interpolated over chromaticity (section
 5.4), the limit round plain adaptation, and the degree of adaptation (section 5.6).
 """
@@ -18,8 +18,8 @@ import numpy as np
 DATA = Path(__file__).resolve().parents[2] / "data"
 DOMAIN = np.arange(380.0, 781.0)
 BANDS = 81
-# Price of a band below zero, for bands this far apart.
-BOUND_PRICE = 0.2 * (400 / (BANDS - 1)) ** 2
+# Price of a band below zero, for bands one nanometre apart.
+BOUND_PRICE = 0.2
 # The kernel's reach in standard deviations, and the noise of samples over its 1: twice that at a mean of DARK.
 REACH, NOISE, SKIN_NOISE, DARK = 2.0, 0.2, 0.1, 0.05
 LEAST_VARIANCE = 1e-4
@@ -104,20 +104,20 @@ def model_skins() -> np.ndarray:
 
 
 @cache
-def hats() -> np.ndarray:
-    """Return the share of each sample of the domain in each band, 401 x 81."""
-    return np.maximum(0.0, 1.0 - np.abs((DOMAIN[:, None] - 380.0) / 5.0 - np.arange(BANDS)))
+def hats(bands: int) -> np.ndarray:
+    """Return the share of each sample of the domain in each band, 401 x bands."""
+    return np.maximum(0.0, 1.0 - np.abs((DOMAIN[:, None] - 380.0) * (bands - 1) / 400.0 - np.arange(bands)))
 
 
-def at_bands(reflectances: np.ndarray) -> np.ndarray:
+def at_bands(reflectances: np.ndarray, bands: int) -> np.ndarray:
     """Return reflectances (n x 401) at the band centres."""
-    return reflectances[:, :: (len(DOMAIN) - 1) // (BANDS - 1)]
+    return reflectances[:, :: (len(DOMAIN) - 1) // (bands - 1)]
 
 
 @cache
-def laplacian() -> np.ndarray:
+def laplacian(bands: int) -> np.ndarray:
     """Return the matrix of the sum of squared differences of neighbours."""
-    differences = np.diff(np.eye(BANDS), axis=0)
+    differences = np.diff(np.eye(bands), axis=0)
     return differences.T @ differences
 
 
@@ -137,9 +137,9 @@ class Pipeline:
             self.xyz_from_response = solved / (solved @ self.white)[1]
         self.white_xyz = self.xyz_from_response @ self.white
 
-    def weights(self) -> np.ndarray:
-        """Return the response of each band, 3 x 81."""
-        return (self.curves * self.light[:, None]).T @ hats()
+    def weights(self, bands: int) -> np.ndarray:
+        """Return the response of each band, 3 x bands."""
+        return (self.curves * self.light[:, None]).T @ hats(bands)
 
 
 def solve_bordered(matrix: np.ndarray, weights: np.ndarray, right: np.ndarray) -> np.ndarray:
@@ -156,20 +156,24 @@ class BoundedSmooth:
 
     def __init__(self, weights: np.ndarray) -> None:
         self.weights = weights
-        self.unclamped = solve_bordered(laplacian(), weights, np.vstack([np.zeros((BANDS, 3)), np.eye(3)]))
+        self.bands = weights.shape[1]
+        self.price = BOUND_PRICE * (400 / (self.bands - 1)) ** 2
+        right = np.vstack([np.zeros((self.bands, 3)), np.eye(3)])
+        self.unclamped = solve_bordered(laplacian(self.bands), weights, right)
 
     def cost(self, spectrum: np.ndarray, prior: np.ndarray) -> float:
         """Return what is minimised."""
         below = np.minimum(spectrum, 0.0)
-        return float(np.sum(np.diff(spectrum - prior) ** 2) + BOUND_PRICE * below @ below)
+        return float(np.sum(np.diff(spectrum - prior) ** 2) + self.price * below @ below)
 
     def solve(self, response: np.ndarray, prior: np.ndarray) -> np.ndarray:
         """Return the spectrum by Newton's method on the set of bands below zero."""
         spectrum = prior + self.unclamped @ (response - self.weights @ prior)
         for _ in range(60):
             clamped = spectrum < 0.0
-            matrix = laplacian() + BOUND_PRICE * np.diag(clamped.astype(float))
-            whole = solve_bordered(matrix, self.weights, np.concatenate([laplacian() @ prior, response]))
+            form = laplacian(self.bands)
+            matrix = form + self.price * np.diag(clamped.astype(float))
+            whole = solve_bordered(matrix, self.weights, np.concatenate([form @ prior, response]))
             if np.array_equal(whole < 0.0, clamped):
                 return whole
             step = 1.0
@@ -183,7 +187,8 @@ class MeasuredScene:
     """What measured spectra deviate from their own smooth spectrum, as a Gaussian process over chromaticity."""
 
     def __init__(self, smooth: BoundedSmooth, curves: np.ndarray) -> None:
-        samples = at_bands(np.vstack([np.ones((1, len(DOMAIN))), measured_surfaces(), model_skins()]))
+        spectra = np.vstack([np.ones((1, len(DOMAIN))), measured_surfaces(), model_skins()])
+        samples = at_bands(spectra, smooth.bands)
         noise = np.concatenate(
             [[0.0], np.full(len(measured_surfaces()), NOISE), np.full(len(model_skins()), SKIN_NOISE)]
         )
@@ -217,14 +222,14 @@ class MeasuredScene:
         """Return the deviation of a response."""
         mean = response.mean()
         if mean <= 1e-4 * np.abs(response).max():
-            return np.zeros(BANDS)
+            return np.zeros(self.coefficients.shape[1])
         return mean * (self.kernel(self.place(response[None])) @ self.coefficients)[0]
 
 
 class Engine:
     """One pair of lights, one scene, the working space ACEScg, von Kries adaptation. No pair here is relaxed."""
 
-    def __init__(self, light_in: str, light_out: str, eye: str, scene: str) -> None:
+    def __init__(self, light_in: str, light_out: str, eye: str, scene: str, bands: int = BANDS) -> None:
         spaces = json.loads((DATA / "rgb_spaces.json").read_text(encoding="utf-8"))["spaces"]
         space = next(s for s in spaces if s["name"] == "ACEScg")
         primaries = np.array([[x, y, 1.0 - x - y] for x, y in space["primaries"]]).T
@@ -232,7 +237,8 @@ class Engine:
         self.white = np.array([x / y, 1.0, (1.0 - x - y) / y])
         self.xyz_from_rgb = primaries @ np.diag(np.linalg.solve(primaries, self.white))
         self.input, self.output = Pipeline(light_in, eye), Pipeline(light_out, EYE)
-        self.smooth = BoundedSmooth(self.input.weights() / self.input.white[:, None])
+        self.smooth = BoundedSmooth(self.input.weights(bands) / self.input.white[:, None])
+        self.output_weights = self.output.weights(bands)
         self.scene = MeasuredScene(self.smooth, self.input.curves) if scene == "natural" else None
         response_from_xyz = np.linalg.inv(self.input.xyz_from_response * self.input.white)
         self.response_from_rgb = response_from_xyz @ self.adapt(self.white, self.input.white_xyz) @ self.xyz_from_rgb
@@ -248,9 +254,9 @@ class Engine:
 
     def difference(self, response: np.ndarray, relative: np.ndarray) -> np.ndarray:
         """Return what the spectral result differs by from plain adaptation, in XYZ over white."""
-        prior = np.zeros(BANDS) if self.scene is None else self.scene.prior(response)
+        prior = np.zeros(self.smooth.bands) if self.scene is None else self.scene.prior(response)
         spectrum = self.smooth.solve(response, prior)
-        return self.relative_from_output @ (self.output.weights() @ spectrum) - relative
+        return self.relative_from_output @ (self.output_weights @ spectrum) - relative
 
     @staticmethod
     def sizes(relative: np.ndarray) -> tuple[float, float]:
