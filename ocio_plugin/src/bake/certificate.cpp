@@ -87,8 +87,7 @@ Policy policyOf(const Certificate& certificate) {
               "clipped above the shaper's signal 1", "a colour of the table, in that pixel alone"};
     case Representation::ExposureInvariantChain:
       return {
-          "kept within what the observer can see; chromaticities beyond are clamped to its border, and colours that "
-          "are negative as a whole become black",
+          "kept, as the engine has them: no colour is clipped",
           std::to_string(kChainStops) + " stops below 0.18 and darker: to black in proportion; as far above: clipped",
           "a finite colour or NaN, in that pixel alone"};
   }

@@ -5,102 +5,70 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
-#include "chain/chromaticity_table.h"
+#include "chain/chain_table.h"
+#include "chain/signed_log.h"
 #include "operators/matrix_operator.h"
 
 namespace metamer::ocio {
 namespace {
 
-/// The middle of the exposures that the chain keeps apart.
-constexpr double kMiddle = 0.18;
-
-/// Slope of the amount's logarithm: the table's third axis spans 2 kChainStops and the toe below them.
-double amountSlope() {
-  return 1.0 / (2.0 * kChainStops + 1.0 / std::numbers::ln2);
-}
-
-/// The identity on two channels, slope * log2 on the third, with a straight toe that meets it smoothly and passes zero.
-OCIO::LogCameraTransformRcPtr amountLog(OCIO::TransformDirection direction) {
-  // A camera log is a straight line below its break: one that lies beyond every chromaticity gives the identity.
-  constexpr double kBeyond = 1048576.0;
-  const double slope = amountSlope();
-  const double darkest = kMiddle * std::exp2(-kChainStops);
-  auto log = OCIO::LogCameraTransform::Create({kBeyond, kBeyond, darkest});
-  log->setBase(2.0);
-  log->setLogSideSlopeValue({1.0, 1.0, slope});
-  log->setLogSideOffsetValue({kBeyond - 20.0, kBeyond - 20.0, slope * (1.0 / std::numbers::ln2 - std::log2(darkest))});
-  log->setLinSideSlopeValue({1.0, 1.0, 1.0});
-  log->setLinSideOffsetValue({0.0, 0.0, 0.0});
-  log->setLinearSlopeValue({1.0, 1.0, slope / (std::numbers::ln2 * darkest)});
-  log->setDirection(direction);
-  return log;
-}
-
-/// The curve that turns ticks into even steps: identity on the third channel.
-OCIO::Lut1DTransformRcPtr tickCurves(const std::array<std::vector<double>, 2>& ticks) {
+/// The curve that turns ticks into even steps.
+OCIO::Lut1DTransformRcPtr tickCurves(const ChainTicks& ticks) {
   const int steps = tickSteps(static_cast<int>(ticks[0].size()));
   auto curve = OCIO::Lut1DTransform::Create(static_cast<unsigned long>(steps) + 1, false);
-  std::array<std::size_t, 2> cell{};
+  std::array<std::size_t, 3> cell{};
   for (int entry = 0; entry <= steps; ++entry) {
     const double at = static_cast<double>(entry) / steps;
-    std::array<double, 2> value{};
-    for (int axis = 0; axis < 2; ++axis) {
+    std::array<float, 3> value{};
+    for (int axis = 0; axis < 3; ++axis) {
       const auto& along = ticks[axis];
       while (cell[axis] + 2 < along.size() && along[cell[axis] + 1] <= at) {
         ++cell[axis];
       }
       const double within = (at - along[cell[axis]]) / (along[cell[axis] + 1] - along[cell[axis]]);
-      value[axis] = (static_cast<double>(cell[axis]) + within) / static_cast<double>(along.size() - 1);
+      value[axis] =
+          static_cast<float>((static_cast<double>(cell[axis]) + within) / static_cast<double>(along.size() - 1));
     }
-    curve->setValue(static_cast<unsigned long>(entry), static_cast<float>(value[0]), static_cast<float>(value[1]),
-                    static_cast<float>(at));
+    curve->setValue(static_cast<unsigned long>(entry), value[0], value[1], value[2]);
   }
   return curve;
+}
+
+/// What comes out at the nodes. A node's ratios only add to the value's logarithm.
+OCIO::Lut3DTransformRcPtr tableOf(const ChainTable& table) {
+  const std::size_t size = table.ticks[0].size();
+  auto lut = OCIO::Lut3DTransform::Create(static_cast<unsigned long>(size));
+  lut->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t j = 0; j < size; ++j) {
+      for (std::size_t k = 0; k < size; ++k) {
+        const double value = signedExponential((2.0 * table.ticks[2][k] - 1.0) * kMostSignedLog);
+        const Eigen::Vector3d out = std::abs(value) * (value < 0.0 ? table.below : table.above)[i * size + j];
+        lut->setValue(i, j, k, static_cast<float>(signedLog(out[0])), static_cast<float>(signedLog(out[1])),
+                      static_cast<float>(signedLog(out[2])));
+      }
+    }
+  }
+  return lut;
 }
 
 }  // namespace
 
 OCIO::GroupTransformRcPtr exposureInvariantChain(const sip::TransformSpec& spec,
                                                  const sip::SpectralTransform& transform, const ChainOptions& options) {
-  const int size = options.size;
-  assert(size >= 3 && size <= 129);
-  const auto [plane, lattice] = buildChromaticityTable(spec, transform, size, options.fitted);
-
-  auto table = OCIO::Lut3DTransform::Create(static_cast<unsigned long>(size));
-  table->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
-  const double slope = amountSlope();
-  for (int i = 0; i < size; ++i) {
-    for (int j = 0; j < size; ++j) {
-      const Eigen::Vector3d& node = lattice.nodes[lattice.index(i, j)];
-      for (int k = 0; k < size; ++k) {
-        const double amount = static_cast<double>(k) / (size - 1) + slope * node[2];
-        table->setValue(static_cast<unsigned long>(i), static_cast<unsigned long>(j), static_cast<unsigned long>(k),
-                        static_cast<float>(node[0]), static_cast<float>(node[1]), static_cast<float>(amount));
-      }
-    }
-  }
-
+  assert(options.size >= 3 && options.size <= 129);
+  const ChainTable table = buildChainTable(spec, transform, options.size, options.fitted);
   auto group = OCIO::GroupTransform::Create();
-  group->appendTransform(matrixOperator(plane.input.fromRgb));
-  group->appendTransform(OCIO::FixedFunctionTransform::Create(OCIO::FIXED_FUNCTION_XYZ_TO_xyY));
-  const auto shift = [](double offset) {
-    auto matrix = OCIO::MatrixTransform::Create();
-    const double offsets[4] = {0.0, offset, 0.0, 0.0};
-    matrix->setOffset(offsets);
-    return matrix;
-  };
-  group->appendTransform(shift(-plane.input.offset));
-  group->appendTransform(amountLog(OCIO::TRANSFORM_DIR_FORWARD));
-  group->appendTransform(tickCurves(lattice.ticks));
-  group->appendTransform(table);
-  group->appendTransform(amountLog(OCIO::TRANSFORM_DIR_INVERSE));
-  group->appendTransform(shift(plane.output.offset));
-  auto back = OCIO::FixedFunctionTransform::Create(OCIO::FIXED_FUNCTION_XYZ_TO_xyY);
-  back->setDirection(OCIO::TRANSFORM_DIR_INVERSE);
-  group->appendTransform(back);
-  group->appendTransform(matrixOperator(plane.output.fromRgb.inverse()));
+  group->appendTransform(matrixOperator(table.frame.inputFromRgb));
+  group->appendTransform(OCIO::FixedFunctionTransform::Create(OCIO::FIXED_FUNCTION_RGB_TO_HSV));
+  group->appendTransform(signedLogOfThird());
+  // Saturation goes up to 2.
+  group->appendTransform(matrixOperator(Eigen::Vector3d(1.0, 0.5, 1.0).asDiagonal().toDenseMatrix()));
+  group->appendTransform(tickCurves(table.ticks));
+  group->appendTransform(tableOf(table));
+  group->appendTransform(signedExponentialOfAll());
+  group->appendTransform(matrixOperator(table.frame.outputFromRgb.inverse()));
   return group;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace metamer::ocio {
 namespace {
@@ -39,94 +40,72 @@ Eigen::Vector3d PlaneLattice::at(const Eigen::Vector2d& point) const {
 
 namespace {
 
-/// Normal equations of a lattice as 3 x 3 blocks: each node with itself and with its neighbours at (1, 0), (0, 1) and
-/// (1, 1), which are all that a triangle couples.
+/// Normal equations of least squares over a lattice's unknowns, as 3 x 3 blocks.
 class NormalEquations {
  public:
-  explicit NormalEquations(const PlaneLattice& lattice)
-      : m_size(lattice.size()),
-        m_blocks(4 * lattice.nodes.size(), Eigen::Matrix3d::Zero()),
-        m_right(lattice.nodes.size(), Eigen::Vector3d::Zero()) {}
+  NormalEquations(const std::vector<Eigen::Vector3d>& nodes, const std::vector<int>& unknowns)
+      : m_nodes(nodes), m_unknowns(unknowns) {
+    const int count = unknowns.empty() ? 0 : 1 + *std::max_element(unknowns.begin(), unknowns.end());
+    m_right = Eigen::VectorXd::Zero(3 * std::max(0, count));
+  }
 
   /// Adds metric-weighted squares of `sum_m coefficient[m] node[m] - value`.
   template <std::size_t N>
   void add(const std::array<std::size_t, N>& node, const std::array<double, N>& coefficient,
-           const Eigen::Matrix3d& metric, const Eigen::Vector3d& value) {
+           const Eigen::Matrix3d& metric, Eigen::Vector3d value) {
+    for (std::size_t m = 0; m < N; ++m) {
+      if (m_unknowns[node[m]] < 0) {
+        value -= coefficient[m] * m_nodes[node[m]];
+      }
+    }
     const Eigen::Vector3d pull = metric * value;
     for (std::size_t m = 0; m < N; ++m) {
-      m_right[node[m]] += coefficient[m] * pull;
+      const int row = m_unknowns[node[m]];
+      if (row < 0) {
+        continue;
+      }
+      m_right.segment<3>(3 * row) += coefficient[m] * pull;
       for (std::size_t n = 0; n < N; ++n) {
-        if (node[n] >= node[m]) {
-          m_blocks[4 * node[m] + slot(node[n] - node[m])] += coefficient[m] * coefficient[n] * metric;
+        if (m_unknowns[node[n]] >= 0) {
+          put(row, m_unknowns[node[n]], coefficient[m] * coefficient[n] * metric);
         }
       }
     }
   }
 
-  /// Solves with one node held at its value in `nodes`, and writes the others there.
-  /// Leaves the nodes as they are where the equations have no stable solution.
-  void solve(std::vector<Eigen::Vector3d>& nodes, std::size_t held) {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(9 * m_blocks.size());
-    Eigen::VectorXd right(static_cast<Eigen::Index>(3 * nodes.size()));
-    const auto put = [&](std::size_t row, std::size_t column, const Eigen::Matrix3d& block) {
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) {
-          if (row != column || r >= c) {
-            entries.emplace_back(static_cast<int>(3 * row) + r, static_cast<int>(3 * column) + c, block(r, c));
-          }
-        }
-      }
-    };
-    const std::array<std::size_t, 4> steps = {0, static_cast<std::size_t>(m_size), 1,
-                                              static_cast<std::size_t>(m_size) + 1};
-    for (std::size_t node = 0; node < nodes.size(); ++node) {
-      for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t other = node + steps[k];
-        const Eigen::Matrix3d& block = m_blocks[4 * node + k];
-        if (other >= nodes.size() || (k > 0 && block.isZero(0.0))) {
-          continue;
-        }
-        if (node == held || other == held) {
-          if (k == 0) {
-            put(held, held, Eigen::Matrix3d::Identity());
-          } else {
-            m_right[node == held ? other : node] -= block * nodes[held];
-          }
-        } else {
-          put(other, node, block);
-        }
-      }
-    }
-    m_right[held] = nodes[held];
-    for (std::size_t node = 0; node < nodes.size(); ++node) {
-      right.segment<3>(static_cast<Eigen::Index>(3 * node)) = m_right[node];
-    }
-    Eigen::SparseMatrix<double> matrix(right.size(), right.size());
-    matrix.setFromTriplets(entries.begin(), entries.end());
+  /// The unknowns; nothing where the equations have no stable solution.
+  std::optional<Eigen::VectorXd> solve() const {
+    Eigen::SparseMatrix<double> matrix(m_right.size(), m_right.size());
+    matrix.setFromTriplets(m_entries.begin(), m_entries.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
-    const Eigen::VectorXd solution = factors.solve(right);
+    Eigen::VectorXd solution = factors.solve(m_right);
     if (factors.info() != Eigen::Success || !solution.allFinite()) {
-      return;
+      return std::nullopt;
     }
-    for (std::size_t node = 0; node < nodes.size(); ++node) {
-      nodes[node] = solution.segment<3>(static_cast<Eigen::Index>(3 * node));
-    }
+    return solution;
   }
 
  private:
-  std::size_t slot(std::size_t step) const {
-    return step == 0 ? 0 : step == static_cast<std::size_t>(m_size) ? 1 : step == 1 ? 2 : 3;
+  /// The lower half, which is all that is factorised.
+  void put(int row, int column, const Eigen::Matrix3d& block) {
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) {
+        if (3 * row + r >= 3 * column + c) {
+          m_entries.emplace_back(3 * row + r, 3 * column + c, block(r, c));
+        }
+      }
+    }
   }
 
-  int m_size;
-  std::vector<Eigen::Matrix3d> m_blocks;
-  std::vector<Eigen::Vector3d> m_right;
+  const std::vector<Eigen::Vector3d>& m_nodes;
+  const std::vector<int>& m_unknowns;
+  std::vector<Eigen::Triplet<double>> m_entries;
+  Eigen::VectorXd m_right;
 };
 
 }  // namespace
 
-void fitLattice(PlaneLattice& lattice, const std::vector<LatticeSample>& samples, std::size_t held) {
+void fitLattice(PlaneLattice& lattice, const std::vector<LatticeSample>& samples, const std::vector<int>& unknowns) {
   if (samples.empty()) {
     return;
   }
@@ -136,7 +115,7 @@ void fitLattice(PlaneLattice& lattice, const std::vector<LatticeSample>& samples
   }
   const Eigen::Matrix3d stiffness = kStiffness * (meanMetric + 1e-3 * meanMetric.trace() * Eigen::Matrix3d::Identity());
 
-  NormalEquations equations(lattice);
+  NormalEquations equations(lattice.nodes, unknowns);
   for (const auto& sample : samples) {
     const auto stencil = lattice.stencil(sample.point);
     equations.add(stencil.node, stencil.weight, sample.metric, sample.value);
@@ -152,7 +131,13 @@ void fitLattice(PlaneLattice& lattice, const std::vector<LatticeSample>& samples
       }
     }
   }
-  equations.solve(lattice.nodes, held);
+  if (const auto solution = equations.solve()) {
+    for (std::size_t node = 0; node < unknowns.size(); ++node) {
+      if (unknowns[node] >= 0) {
+        lattice.nodes[node] = solution->segment<3>(3 * unknowns[node]);
+      }
+    }
+  }
 }
 
 }  // namespace metamer::ocio

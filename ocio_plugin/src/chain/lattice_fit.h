@@ -37,8 +37,8 @@ struct LatticeSample {
 
 /// Node values of least squared error over the samples, by sparse normal equations. Where samples leave nodes free,
 /// they keep to the shape of the values they came with.
-/// @param lattice  its nodes are replaced
-/// @param held     a node that keeps its value
-void fitLattice(PlaneLattice& lattice, const std::vector<LatticeSample>& samples, std::size_t held);
+/// @param lattice   its nodes are replaced
+/// @param unknowns  which unknown, from 0, each node is; nodes may share one; below 0: the node keeps its value
+void fitLattice(PlaneLattice& lattice, const std::vector<LatticeSample>& samples, const std::vector<int>& unknowns);
 
 }  // namespace metamer::ocio

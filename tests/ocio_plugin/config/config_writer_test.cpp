@@ -81,7 +81,7 @@ TEST(ConfigWriterTest, RecipesThatDifferInAdaptationShareAFile) {
   }
   EXPECT_EQ(report.entries[3].file, "luts/warm.ctf");
   // A shared table is fitted for the middle adaptation: an end may lose up to a quarter of its error to the other, and
-  // together they lose nothing against tables of their own.
+  // together they lose no more than a tenth against tables of their own.
   double shared = 0;
   double ofTheirOwn = 0;
   for (const ConfigEntry& entry : report.entries) {
@@ -93,7 +93,7 @@ TEST(ConfigWriterTest, RecipesThatDifferInAdaptationShareAFile) {
     ofTheirOwn += alone.error.mean;
     EXPECT_TRUE(std::filesystem::exists(folder / entry.file));
   }
-  EXPECT_LE(shared, ofTheirOwn);
+  EXPECT_LE(shared, 1.1 * ofTheirOwn);
   const auto json = nlohmann::json::parse(contentsOf(folder / "luts" / "sodium_50.json"));
   EXPECT_EQ(json["recipe"]["output"]["adaptation"], 0.5);
   EXPECT_EQ(json["transform"]["sha256"], sha256(contentsOf(folder / "luts/sodium.ctf")));
@@ -115,13 +115,13 @@ TEST(ConfigWriterTest, TheLeastThatHoldsATolerance) {
   EXPECT_GT(matrix.certificate.error.p99, 0.5);
   int last = 0;
   for (const double tolerance : {2.0, 0.8}) {
-    const ConfigEntry entry = entryAt(tolerance, 21);
+    const ConfigEntry entry = entryAt(tolerance, 33);
     EXPECT_EQ(entry.certificate.representation, Representation::ExposureInvariantChain);
     EXPECT_LE(entry.certificate.error.p99, tolerance);
     EXPECT_GE(entry.certificate.size, last);
     last = entry.certificate.size;
   }
-  EXPECT_LT(last, 21);
+  EXPECT_LT(last, 33);
   // What cannot be held: the largest that was allowed.
   const ConfigEntry least = entryAt(1e-4, 9);
   EXPECT_EQ(least.certificate.size, 9);

@@ -9,7 +9,7 @@ namespace metamer::ocio {
 
 namespace OCIO = OCIO_NAMESPACE;
 
-/// Exposures that the chain keeps apart: stops below and above 0.18 in its amount channel. Darker colours go straight
+/// Exposures that the chain keeps apart: stops below and above 0.18, to either side of zero. Darker colours go straight
 /// to black, lighter ones stop there.
 inline constexpr int kChainStops = 28;
 
@@ -20,14 +20,15 @@ struct ChainOptions {
 
 /// A spectral transform as OCIO operators that scale with exposure exactly: linear RGB in and out, any OCIO from 2.1.
 ///
-/// A matrix to a frame p; the fixed function XYZ_TO_xyY, which turns p into chromaticity and amount; a camera log that
-/// is the identity on the two chromaticities and a logarithm (with a linear toe through zero) on the amount; a 3-D
-/// table, tetrahedral, that depends on the chromaticities alone but for the third channel, to which it adds; and all of
-/// it back. A table that is a plain sum along its third axis is looked up by triangles of the chromaticity plane, so
-/// one exposure is as good as another and a gain goes through as a gain.
+/// A matrix to wide channels; the fixed function RGB_TO_HSV, which turns them into hue, saturation and a signed value,
+/// whatever their signs; a logarithm of either sign on the value; a 3-D table, tetrahedral, that depends on hue and
+/// saturation alone but for the value's logarithm, to which it adds, with a half for either sign of the value; from
+/// there the logarithms of three wide channels, their exponentials, and a matrix back. A table that is a plain sum
+/// along its third axis is looked up by triangles of the other two, so one exposure is as good as another and a gain
+/// goes through as a gain.
 ///
-/// Black gives black. Chromaticities outside what the observer can see are clamped to the border of the table; colours
-/// with a negative amount (far outside) go to black. Finite pixels give finite results.
+/// There is no colour that the table does not cover and nothing is divided on the way back: a finite pixel, however
+/// noisy or negative, gives no more than the table's own nodes times its size. Black gives black.
 /// @param spec       what `transform` was made from
 OCIO::GroupTransformRcPtr exposureInvariantChain(const sip::TransformSpec& spec,
                                                  const sip::SpectralTransform& transform,
