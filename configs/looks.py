@@ -25,10 +25,10 @@ CAMERAS = {
 }
 
 # What a set holds, in CIEDE2000 at the 99th percentile, and the most nodes along a side it may take for it: all tables
-# together are to stay below 15 MB.
+# together are to stay below 200 MB.
 TOLERANCE = 1.0
-SIZE = 23
-SMALL_SIZE = 15
+SIZE = 49
+SMALL_SIZE = 33
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Regenerate the measured tables in data/ from pinned registry packages.
 
-Needs Python 3.11 or newer with colour-science 0.4.7 and lighting-filters
-0.1.1 installed. The output is the same byte for byte on every run.
+Needs Python 3.11 or newer with colour-science 0.4.7, lighting-filters 0.1.1 and
+scikit-image 0.26.0 installed. The output is the same byte for byte on every run.
 """
 
 from __future__ import annotations
@@ -18,13 +18,15 @@ from pathlib import Path
 from data_export.filters import filter_tables
 from data_export.illuminants import daylight_basis_table, illuminant_tables
 from data_export.observers import observer_tables
+from data_export.pixels import PACKAGE as PICTURES
+from data_export.pixels import pixel_table
 from data_export.reflectances import reflectance_tables
 from data_export.rgb_spaces import rgb_space_table
 from data_export.table import Table
 
 ROOT = Path(__file__).resolve().parent.parent
 PINNED = {"colour-science": "0.4.7", "lighting-filters": "0.1.1"}
-GROUPS = ("illuminants", "daylight_basis", "observers", "filters", "reflectances", "rgb_spaces")
+GROUPS = ("illuminants", "daylight_basis", "observers", "filters", "reflectances", "rgb_spaces", "pixels")
 
 
 def check_names(tables: list[Table]) -> None:
@@ -50,6 +52,7 @@ def build() -> list[Table]:
             *filter_tables(colour),
             *reflectance_tables(colour),
             rgb_space_table(colour),
+            pixel_table(colour),
         ]
     check_names(tables)
     return sorted(tables, key=lambda t: (GROUPS.index(t.group), t.file))
@@ -76,7 +79,7 @@ def licence_texts() -> dict[str, bytes]:
 
 def missing_package() -> str | None:
     """Return one line on the first pinned package that is not as pinned."""
-    for package, wanted in PINNED.items():
+    for package, wanted in [*PINNED.items(), PICTURES]:
         try:
             found = metadata.version(package)
         except metadata.PackageNotFoundError:

@@ -80,7 +80,7 @@ class Golden(unittest.TestCase):
         for file, bound in CASES.items():
             spoilt = self.folder / file
             text = (GOLDEN / file).read_text()
-            head, mark, table = text.partition('<Array dim="9 9 9 3">' if file.endswith(".ctf") else "LUT_3D_SIZE 9")
+            head, mark, table = text.partition('<Array dim="13 13 13 3">' if file.endswith(".ctf") else "LUT_3D_SIZE 9")
             self.assertTrue(mark, file)
             table, end, tail = table.partition("</Array>")
             table = re.sub(r"(?<![\w.])-?\d*\.\d+(e[-+]?\d+)?", lambda match: repr(float(match[0]) * 1.05), table)

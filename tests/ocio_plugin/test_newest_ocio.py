@@ -46,8 +46,9 @@ class NewestOcio(unittest.TestCase):
                 size = np.abs(a[:, :3]).max(axis=1, keepdims=True)
                 worst = max(worst, float((np.abs(a - b)[:, :3] / size).max()))
             print(f"{pair[0]} -> {pair[1]}: releases differ by {worst:.2e}")
-            # The chain's amount is a float over 57 stops: one unit in its last place is 2.4e-6 of the light.
-            self.assertLess(worst, 1e-5)
+            # The chain looks up a logarithm as a float over 115 stops: one unit in its last place is 5e-6 of the light,
+            # and the way back from wide channels doubles it.
+            self.assertLess(worst, 3e-5)
 
     def test_every_format_reads_alike(self):
         for name, options in [("a.clf", []), ("a.cube", []), ("b.cube", ["--format", "resolve_cube"])]:

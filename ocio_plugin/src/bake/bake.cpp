@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 
 #include "bake/bake_operators.h"
 #include "bake/ladder.h"
@@ -50,19 +51,28 @@ class Baking {
         m_prepared(prepare(recipe, library, options)),
         m_probes(probesOf(format, m_prepared, options)),
         m_protocol(m_prepared.spec, library.reflectances(sip::ErrorProtocol::kChart).samples, m_probes),
+        m_pixels(m_prepared.transform, library.certificatePixels()),
         m_certificate(newCertificate(recipe, library, m_prepared, m_protocol)) {
     m_certificate.probes = m_probes;
+    m_certificate.brightening = m_pixels.brightening();
     choose();
   }
 
-  /// The error of a transform of the format's pixels.
-  sip::ErrorProtocol::Report measure(const PixelProcessor& processor) const {
-    return m_protocol.measure(Candidate(processor, m_operators.toPixels, m_operators.fromPixels));
+  /// Puts the error of a transform of the format's pixels into the certificate.
+  /// @throws spectral::InputError where it gives what is not a number: no certificate says that
+  void certify(const PixelProcessor& processor) {
+    const Candidate candidate(processor, m_operators.toPixels, m_operators.fromPixels);
+    m_certificate.error = m_protocol.measure(candidate);
+    m_certificate.pixels = m_pixels.measure(candidate);
+    if (!std::isfinite(m_certificate.error.max) || !std::isfinite(m_certificate.pixels.largest)) {
+      throw InputError("", "transform", "not a number",
+                       "colours come out infinite or as no number; name another light, observer or format");
+    }
   }
-  sip::ErrorProtocol::Report measure() const { return measure(PixelProcessor(m_operators.group)); }
+  void certify() { certify(PixelProcessor(m_operators.group)); }
 
   const OCIO::GroupTransformRcPtr& group() const { return m_operators.group; }
-  /// Without the error of the result.
+  /// With the error of the result once certify() ran.
   Certificate& certificate() { return m_certificate; }
   const Certificate& certificate() const { return m_certificate; }
 
@@ -74,6 +84,7 @@ class Baking {
   Prepared m_prepared;
   sip::ErrorProtocol::Options m_probes;
   sip::ErrorProtocol m_protocol;
+  PixelProtocol m_pixels;
   Certificate m_certificate;
   Operators m_operators;
 };
@@ -103,7 +114,8 @@ void Baking::choose() {
       climb(rungsOf(m_format.content, holdsChain(m_format), largest), *m_options.tolerance, [&](const Rung& rung) {
         tried.size = rung.size;
         make(tried, rung.representation);
-        return measure();
+        return m_protocol.measure(
+            Candidate(PixelProcessor(m_operators.group), m_operators.toPixels, m_operators.fromPixels));
       });
 }
 
@@ -118,7 +130,7 @@ std::string textOf(const Baking& baking, const LutFormat& format, const BakeOpti
 
 Baked bake(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options) {
   Baking baking(recipe, library, lutFormats().front(), options);
-  baking.certificate().error = baking.measure();
+  baking.certify();
   return {baking.group(), std::move(baking.certificate())};
 }
 
@@ -128,7 +140,7 @@ BakedText bakeText(const sip::Recipe& recipe, const spectral::DataLibrary& libra
   Baking baking(recipe, library, format, options);
   Certificate& certificate = baking.certificate();
   certificate.format = format.name;
-  certificate.error = baking.measure();
+  baking.certify();
   std::string text = textOf(baking, format, options);
   certificate.sha256 = sha256(text);
   return {std::move(text), std::move(certificate)};
@@ -145,11 +157,11 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   Certificate& certificate = baking.certificate();
   certificate.format = format.name;
   // Twice: what the file says of itself is known before it is written, what the certificate says after.
-  certificate.error = baking.measure();
+  baking.certify();
   const std::string text = textOf(baking, format, options);
   lut.write(text);
   certificate.sha256 = sha256(text);
-  certificate.error = baking.measure(PixelProcessor::fromFile(lut.path()));
+  baking.certify(PixelProcessor::fromFile(lut.path()));
   if (options.tolerance && certificate.error.p99 > 1.01 * *options.tolerance) {
     throw InputError(file.string(), "tolerance", std::to_string(*options.tolerance),
                      "is lost in the digits of " + format.name + "; name a format that keeps more");

@@ -94,7 +94,46 @@ Policy policyOf(const Certificate& certificate) {
   return {};
 }
 
+Json pixelsJson(const PixelProtocol::Report& pixels) {
+  if (pixels.count == 0) {
+    return nullptr;
+  }
+  return {{"count", pixels.count},
+          {"off_by",
+           {{"of", "the pixel's largest channel"},
+            {"p999", rounded(pixels.p999)},
+            {"largest", rounded(pixels.largest)},
+            {"worst",
+             {{"kind", pixels.worstKind},
+              {"rgb",
+               {significant(pixels.worstRgb[0]), significant(pixels.worstRgb[1]), significant(pixels.worstRgb[2])}}}}}},
+          {"display_codes",
+           {{"photograph_p99", rounded(pixels.photographCodes)}, {"noisy_p99", rounded(pixels.noisyCodes)}}}};
+}
+
+/// Beyond these a certificate says so in a sentence: luminance, over white's; distance, of a pixel's own size.
+constexpr double kBright = 3.0;
+constexpr double kFar = 1.0;
+
 }  // namespace
+
+std::vector<std::string> Certificate::warnings() const {
+  std::vector<std::string> result;
+  std::array<char, 200> text{};
+  if (brightening > kBright) {
+    std::snprintf(text.data(), text.size(), "saturated lights grow up to %.1f times as bright against white",
+                  brightening);
+    result.emplace_back(text.data());
+  }
+  if (pixels.count > 0 && pixels.largest > kFar) {
+    std::snprintf(
+        text.data(), text.size(),
+        "a pixel of the kind '%s' ends %.1f times its own size from the engine; more nodes (--size) or .ctf keep it",
+        pixels.worstKind.c_str(), pixels.largest);
+    result.emplace_back(text.data());
+  }
+  return result;
+}
 
 std::string Certificate::json() const {
   Json inputList = Json::array();
@@ -164,8 +203,10 @@ std::string Certificate::json() const {
         {"worst",
          {{"name", error.worstProbe},
           {"rgb", {significant(error.worstRgb[0]), significant(error.worstRgb[1]), significant(error.worstRgb[2])}}}}}},
+      {"pixels", pixelsJson(pixels)},
       {"diagnostics",
-       {{"condition_number", significant(diagnostics.conditionNumber)},
+       {{"brightening", significant(brightening)},
+        {"condition_number", significant(diagnostics.conditionNumber)},
         {"surface_gain", significant(diagnostics.gain)},
         {"relaxation", significant(diagnostics.relaxation)},
         {"reach",
@@ -210,6 +251,14 @@ std::vector<std::string> Certificate::lines() const {
                 gamut.c_str(), probes.insideGamutOnly ? ", inside only" : "", diagnostics.conditionNumber,
                 diagnostics.relaxation, gain, 100.0 * folds);
   result.emplace_back(range.data());
+  if (pixels.count > 0) {
+    std::array<char, 200> text{};
+    std::snprintf(text.data(), text.size(),
+                  "pixels of noisy photographs, lights and beyond: off by %.3f of their size at p99.9, %.3f at most; "
+                  "photographs by %.2f display codes at p99, noisy ones by %.2f",
+                  pixels.p999, pixels.largest, pixels.photographCodes, pixels.noisyCodes);
+    result.emplace_back(text.data());
+  }
   if (choice) {
     std::array<char, 160> text{};
     std::snprintf(text.data(), text.size(), "chosen as the cheapest with p99 within %g", choice->tolerance);

@@ -299,6 +299,8 @@ Certificate certificateOf(const ConfigCore& core, const CoreUse& use, const Bake
   Certificate certificate = baked.certificate;
   certificate.recipe = use.recipe;
   certificate.error = errorOf(core, use, transform, certificate.probes, library);
+  // Of the table's own adaptation, not of this recipe's.
+  certificate.pixels = {};
   return certificate;
 }
 

@@ -224,6 +224,10 @@ std::vector<ColourSpace> DataLibrary::colourSpaces() const {
   return spectral::colourSpaces(readRgbSpaces(m_state->onlyTable("rgb_spaces").file()));
 }
 
+std::vector<SetPixel> DataLibrary::certificatePixels() const {
+  return readPixelSet(m_state->onlyTable("pixels").file());
+}
+
 Spectrum DataLibrary::illuminant(const std::string& nameOrFile, const std::filesystem::path& baseFolder) const {
   if (std::optional<Spectrum> found = m_state->column("illuminants", nameOrFile)) {
     return *std::move(found);

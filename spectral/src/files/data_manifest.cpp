@@ -17,8 +17,8 @@ constexpr int kVersion = 1;
 
 SpectralQuantity readQuantity(const nlohmann::json& table, const std::string& group, const std::string& where) {
   const std::string stated = requiredText(table, "quantity", where);
-  // The daylight components are parts of a distribution and go below zero; chromaticities are no spectra at all.
-  if (group == "daylight_basis" || group == "rgb_spaces") {
+  // The daylight components are parts of a distribution and go below zero; chromaticities and pixels are no spectra.
+  if (group == "daylight_basis" || group == "rgb_spaces" || group == "pixels") {
     return SpectralQuantity::Sensitivity;
   }
   for (const SpectralQuantity quantity : {SpectralQuantity::SpectralPowerDistribution, SpectralQuantity::Sensitivity,

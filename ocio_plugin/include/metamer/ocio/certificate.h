@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "metamer/ocio/pixel_protocol.h"
 #include "metamer/ocio/representation.h"
 #include "metamer/sip/error_protocol.h"
 #include "metamer/sip/recipe.h"
@@ -46,6 +47,8 @@ struct Certificate {
   std::string gamut;                      ///< working space of the probes
   sip::ErrorProtocol::Options probes;
   sip::ErrorProtocol::Report error;  ///< CIEDE2000 against 401 bands, through OCIO's CPU processor
+  PixelProtocol::Report pixels;      ///< against the engine that made it; of no pixels where it was not measured
+  double brightening = 0;            ///< the engine's luminance out over in at saturated lights, over white's, at most
   sip::SpectralTransform::Diagnostics diagnostics;
   double folds = 0;    ///< share of the probes where the map of chromaticities turns over (negative Jacobian)
   double gain = 0;     ///< largest singular value of the transform's derivative at the probes
@@ -53,6 +56,8 @@ struct Certificate {
 
   /// The whole as JSON, fields in a fixed order, two spaces of indent, a newline at the end.
   std::string json() const;
+  /// What a user is to be told at once, a sentence each: saturated lights that grow, pixels that end far off.
+  std::vector<std::string> warnings() const;
   /// The heart of it for comments and metadata, one statement a line.
   std::vector<std::string> lines() const;
 };

@@ -8,6 +8,7 @@
 
 #include "metamer/spectral/colour_space.h"
 #include "metamer/spectral/observer.h"
+#include "metamer/spectral/pixel_set.h"
 #include "metamer/spectral/spectrum.h"
 
 namespace metamer::spectral {
@@ -55,6 +56,9 @@ class DataLibrary {
   Spectrum filter(const std::string& nameOrFile, const std::filesystem::path& baseFolder = {}) const;
   ReflectanceSet reflectances(const std::string& nameOrFile, const std::filesystem::path& baseFolder = {}) const;
   ColourSpace colourSpace(const std::string& name) const;
+
+  /// The colours by which certificates judge files.
+  std::vector<SetPixel> certificatePixels() const;
 
   /// Provenance of a name as the calls above resolve it. `group` is the manifest's ("illuminants", ...).
   Provenance provenance(const std::string& group, const std::string& nameOrFile) const;
