@@ -2,12 +2,15 @@
 """lutgen validate: renders under both lights judge a recipe's transform."""
 
 import json
+import tempfile
 import unittest
+from pathlib import Path
 
 from lutgen import LutgenTest, lutgen
 
 RECIPE = "metamer: 1\nspace: ACEScg\ninput: {illuminant: D65}\noutput: {illuminant: A}\n"
 FEW = ("--replicates", "3", "--samples", "4")
+HELD = ("--tolerance", "0.1")
 
 
 class Validate(LutgenTest):
@@ -15,12 +18,18 @@ class Validate(LutgenTest):
         super().setUp()
         (self.folder / "r.yaml").write_text(RECIPE)
 
-    def report(self, *options):
-        table = self.assertWorks("validate", "r.yaml", "--json", "r.json", *options)
-        return json.loads((self.folder / "r.json").read_text()), table
+    @classmethod
+    def setUpClass(cls):
+        """What several cases look at: rendered once."""
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "r.yaml").write_text(RECIPE)
+            run = lutgen("validate", "r.yaml", "--json", "r.json", *FEW, *HELD, "--threads", "2", folder=folder)
+            if (run.returncode, run.stderr) != (0, ""):
+                raise AssertionError(run.stderr)
+            cls.table, cls.shared = run.stdout, json.loads((Path(folder) / "r.json").read_text())
 
     def test_what_remains_has_its_name(self):
-        report, table = self.report(*FEW, "--tolerance", "0.1")
+        report, table = self.shared, self.table
         scenes = {scene["name"]: scene for scene in report["scenes"]}
         self.assertEqual(list(scenes), ["smooth objects", "chart", "skin and leaves", "box"])
         for name, scene in scenes.items():
@@ -37,16 +46,14 @@ class Validate(LutgenTest):
         self.assertLess(report["led_wall"]["corrected"], 0.7 * report["led_wall"]["driven_only"])
 
     def test_threads_change_no_bit(self):
-        one, _ = self.report(*FEW, "--threads", "1")
-        two, _ = self.report(*FEW, "--threads", "2")
-        self.assertEqual(one, two)
-        other, _ = self.report(*FEW, "--seed", "9")
-        self.assertNotEqual(one["scenes"], other["scenes"])
+        self.assertWorks("validate", "r.yaml", "--json", "r.json", *FEW, *HELD, "--threads", "1")
+        self.assertEqual(json.loads((self.folder / "r.json").read_text()), self.shared)
 
-    def test_beyond_the_tolerance(self):
-        run = lutgen("validate", "r.yaml", *FEW, "--tolerance", "0", folder=self.folder)
+    def test_another_seed_beyond_the_tolerance(self):
+        run = lutgen("validate", "r.yaml", "--json", "r.json", *FEW, "--seed", "9", "--tolerance", "0", folder=self.folder)
         self.assertEqual(run.returncode, 3)
         self.assertIn("more than the tolerance 0", run.stdout)
+        self.assertNotEqual(json.loads((self.folder / "r.json").read_text())["scenes"], self.shared["scenes"])
 
     def test_bad_input(self):
         self.assertFails("validate", "no.yaml", says=["no.yaml"])

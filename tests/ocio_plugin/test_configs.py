@@ -21,28 +21,42 @@ RECIPES = {
     "nothing": "input: {illuminant: D65}\noutput: {illuminant: D65}",
 }
 LOG_RECIPE = "awg4_to_a"
-SIZE = "17"  # what is tested here does not depend on it
+# What is tested here depends neither on the tables' size nor on the scene.
+SIZE, SCENE = "9", "scene: {kind: smooth}"
 
 
 def lutgen(*arguments):
     return subprocess.run([BIN / "lutgen", *map(str, arguments)], capture_output=True, text=True, timeout=600)
 
 
+def recipes_in(folder):
+    files = []
+    for name, text in RECIPES.items():
+        files.append(folder / f"{name}.yaml")
+        files[-1].write_text(f"metamer: 1\nname: {name}\n{text}\n{SCENE}\n")
+    return files
+
+
+def write(folder, name, *arguments):
+    """A config of all recipes."""
+    run = lutgen("config", "-o", folder / name, "--size", SIZE, *arguments, *recipes_in(folder))
+    if run.returncode != 0:
+        raise AssertionError(run.stderr)
+    return folder / name
+
+
 class Configs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """The new config that several cases read: written once."""
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.new = write(Path(temporary.name), "new.ocio")
+
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
-        self.recipes = []
-        for name, text in RECIPES.items():
-            self.recipes.append(self.folder / f"{name}.yaml")
-            self.recipes[-1].write_text(f"metamer: 1\nname: {name}\n{text}\n")
-
-    def write(self, name, *arguments):
-        file = self.folder / name
-        run = lutgen("config", "-o", file, "--size", SIZE, *arguments, *self.recipes)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        return file
 
     def built_in(self, name):
         """A config of the newest release, as a file."""
@@ -68,7 +82,7 @@ class Configs(unittest.TestCase):
             np.testing.assert_allclose(one, other, rtol=2e-4, atol=2e-5, err_msg=f"{kind} {name}")
 
     def test_new_config_runs_alike_in_both_releases(self):
-        file = self.write("new.ocio")
+        file = self.new
         here, there = run_config.older(file), run_config.newest(file)
         self.assert_alike(here, there)
         self.assertEqual(sum(kind == "look" for kind, _ in here), len(RECIPES))
@@ -83,7 +97,7 @@ class Configs(unittest.TestCase):
 
     def test_spaces_are_those_of_the_studio_config(self):
         """Colour spaces of a new config against the newest studio config's of the same names, to ACES2065-1."""
-        ours = ocio.Config.CreateFromFile(str(self.write("new.ocio")))
+        ours = ocio.Config.CreateFromFile(str(self.new))
         theirs = ocio.Config.CreateFromBuiltinConfig("studio-config-v2.2.0_aces-v1.3_ocio-v2.4")
         ramp = np.random.default_rng(1).random((256, 3)).astype(np.float32) * 0.9 + 0.05
         compared = 0
@@ -106,10 +120,11 @@ class Configs(unittest.TestCase):
         newest = {"cg": "", "studio": ""}
         for name in sorted(entry[0] for entry in ocio.BuiltinConfigRegistry().getBuiltinConfigs()):
             newest[name.split("-")[0]] = name
+        new = run_config.newest(self.new)
         for name in [*newest.values(), "studio-config-v1.0.0_aces-v1.3_ocio-v2.1"]:
             with self.subTest(name):
                 base = self.built_in(name)
-                file = self.write(f"{name}_added.ocio", "--base", base)
+                file = write(self.folder, f"{name}_added.ocio", "--base", base)
                 # Every line of the base is there, in its order; one, the search path, is changed, none is lost.
                 before, after = base.read_text().splitlines(), file.read_text().splitlines()
                 changes = [line for line in difflib.unified_diff(before, after, n=0, lineterm="")][2:]
@@ -125,7 +140,6 @@ class Configs(unittest.TestCase):
                     np.testing.assert_array_equal(was[key], now[key], err_msg=str(key))
                 self.assertEqual(len(now), len(was) + 2 * len(RECIPES))
                 # And the looks do what they do in a new config.
-                new = run_config.newest(self.write("new.ocio"))
                 for look in RECIPES:
                     np.testing.assert_allclose(now["look", look], new["look", look], rtol=1e-4, atol=1e-6)
                 if name.endswith("ocio-v2.1"):
@@ -144,7 +158,7 @@ class Configs(unittest.TestCase):
         legacy.addDisplayView("sRGB", "Log", "log", "")
         base = self.folder / "legacy.ocio"
         base.write_text(legacy.serialize())
-        run = lutgen("config", "-o", self.folder / "out.ocio", "--base", base, *self.recipes)
+        run = lutgen("config", "-o", self.folder / "out.ocio", "--base", base, *recipes_in(self.folder))
         self.assertEqual(run.returncode, 1)
         self.assertIn("upgradeToLatestVersion", run.stderr)
         self.assertFalse((self.folder / "out.ocio").exists())
@@ -155,7 +169,7 @@ class Configs(unittest.TestCase):
         upgraded.setVersion(2, 1)
         upgraded.setRole("aces_interchange", "lin")
         base.write_text(upgraded.serialize())
-        file = self.write("out.ocio", "--base", base)
+        file = write(self.folder, "out.ocio", "--base", base)
         self.assert_alike(run_config.older(file), run_config.newest(file))
         self.assertIn("process_space: lin\n", file.read_text())
 
