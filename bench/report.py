@@ -31,6 +31,7 @@ SECTIONS = {
     "recovery": ("Other recoveries in the same pipeline", "accuracy"),
     "matching": ("Matching shots: robust or accurate", "accuracy"),
     "balance": ("How the shot was balanced", "accuracy"),
+    "robustness": ("Gain, energy and pixels of noise", "accuracy"),
     "validation": ("The loop closed", "accuracy"),
     "stability": ("Numerical stability", "accuracy"),
     "compilers": ("Whatever compiled it, and however many threads", "accuracy"),
@@ -54,7 +55,8 @@ def section_markdown(name, result, heading, pictures=None):
     lines += section.markdown(result["figures"])
     if pictures is not None and hasattr(section, "plot"):
         lines += ["", f"![{SECTIONS[name][0]}]({pictures}{name}.png)"]
-    return lines + ["", f"*{result['machine']}; OpenColorIO {result['ocio']}; script/bench --only {name}.*"]
+    older = f"Release {result['release']}; " if "release" in result else ""
+    return lines + ["", f"*{older}{result['machine']}; OpenColorIO {result['ocio']}; script/bench --only {name}.*"]
 
 
 def rounded(value):
@@ -166,8 +168,8 @@ def page(results, name):
     # Sections that an older release measured say so.
     releases = sorted({result["release"] for result in results.values() if "release" in result})
     if releases:
-        lines += ["", f"**These figures are of release {', '.join(releases)}**: the engine has been replaced since "
-                  "([engine.md](engine.md)), and they are to be measured anew."]
+        lines += ["", f"**What says release {', '.join(releases)} below it is of that release**: the engine has been replaced since "
+                  "([engine.md](engine.md)), and it is to be measured anew."]
     if fronts.sources(results):
         lines += ["", f"![The fronts](images/bench_{fronts.PICTURE})"]
     for section, result in ordered(results).items():

@@ -27,6 +27,7 @@ struct BakeArguments {
   std::string shaper;
   int size = 0;
   bool sampled = false;
+  bool inverse = false;
   std::optional<double> tolerance;
   std::vector<int> stops;
   int shaperSize = 0;
@@ -90,6 +91,12 @@ void report(const ocio::Certificate& certificate) {
 }
 
 void bake(const BakeArguments& arguments) {
+  if (arguments.inverse) {
+    throw spectral::InputError("", "inverse", "",
+                               "is not made: colours that the input light hid are one colour in the result, and "
+                               "nothing tells them apart again; "
+                               "exchange input and output in the recipe, which relights the result back");
+  }
   if (arguments.toStdout != arguments.output.empty()) {
     throw CLI::ValidationError("bake", "needs either -o FILE or --stdout");
   }
@@ -138,6 +145,7 @@ void addBake(CLI::App& application) {
       ->add_option("--size,--cubesize", arguments->size,
                    "Nodes along a side; 33 for .cube, 65 for others by default; the most where there is a tolerance")
       ->check(CLI::Range(ocio::kSmallestTable, ocio::kLargestTable));
+  command->add_flag("--inverse", arguments->inverse, "Refused: says why, and what does it in its place");
   command->add_flag("--sampled", arguments->sampled, "Nodes are the transform's values, not solved for least error");
   command
       ->add_option("--tolerance", arguments->tolerance,

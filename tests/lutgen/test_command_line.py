@@ -192,6 +192,14 @@ class Bake(LutgenTest):
         self.assertEqual([c["transform"]["nodes"] for c in (fitted, sampled)], ["fitted", "sampled"])
         self.assertLess(fitted["error"]["p99"], sampled["error"]["p99"])
 
+    def test_an_inverse_is_refused_with_what_to_do(self):
+        file = self.folder / "back.ctf"
+        run = lutgen("bake", "--illuminant-in", "D65", "--illuminant-out", "A", "--inverse", "-o", file)
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("exchange input and output", run.stderr)
+        self.assertEqual(run.stderr.count("\n"), 1)
+        self.assertFalse(file.exists())
+
     def test_filters_shaper_scene(self):
         (self.folder / "gel.csv").write_text("nm,transmittance\n380,0.9\n580,0.2\n780,0.8\n")
         self.assertWorks(
