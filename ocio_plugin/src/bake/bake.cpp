@@ -62,7 +62,7 @@ class Baking {
   /// @throws spectral::InputError where it gives what is not a number: no certificate says that
   void certify(const PixelProcessor& processor) {
     const Candidate candidate(processor, m_operators.toPixels, m_operators.fromPixels);
-    m_certificate.error = m_protocol.measure(candidate);
+    m_certificate.error = m_protocol.search(candidate);
     m_certificate.pixels = m_pixels.measure(candidate);
     if (!std::isfinite(m_certificate.error.max) || !std::isfinite(m_certificate.pixels.largest)) {
       throw InputError("", "transform", "not a number",

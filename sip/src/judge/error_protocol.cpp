@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <numeric>
 
 #include "metamer/sip/band_weights.h"
 #include "metamer/sip/spectral_locus.h"
@@ -17,6 +18,10 @@ namespace {
 
 constexpr double kProbeLuminance = 0.18;
 constexpr double kRingFraction = 0.97;
+/// Probes round which a larger error is looked for, and the steps in xy.
+constexpr std::size_t kSearched = 12;
+constexpr double kLongestStep = 0.016;
+constexpr double kShortestStep = 0.001;
 
 std::string label(const char* kind, double a, double b) {
   std::array<char, 64> text{};
@@ -28,7 +33,7 @@ std::string label(const char* kind, double a, double b) {
 
 ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectral::Spectrum>& chart,
                              const Options& options)
-    : m_options(options), m_converged(spec, kConvergedBandCount) {
+    : m_options(options), m_converged(spec, kConvergedBandCount), m_locus(spec.standardObserver) {
   const Eigen::Matrix3d rgbFromXyz = spec.space.rgbFromXyz();
   const Eigen::Vector2d white = spectral::chromaticity(spec.space.whiteXyz());
   const auto add = [&](std::string name, const Eigen::Vector3d& rgb) {
@@ -41,7 +46,6 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
     return rgbFromXyz * spectral::xyzFromChromaticity(xy, kProbeLuminance);
   };
 
-  const SpectralLocus locus(spec.standardObserver);
   // Roberts' R2 sequence on the parallelogram of two sides of the gamut, folded into the triangle.
   const double plastic = 1.32471795724474602596;
   const std::array<double, 2> step = {1.0 / plastic, 1.0 / (plastic * plastic)};
@@ -54,7 +58,7 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
       v = 1.0 - v;
     }
     const Eigen::Vector2d xy = origin + u * (spec.space.primaries[1] - origin) + v * (spec.space.primaries[2] - origin);
-    if (locus.contains(xy)) {
+    if (m_locus.contains(xy)) {
       add(label("xy", xy.x(), xy.y()), colourAt(xy));
       ++kept;
     }
@@ -71,7 +75,7 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
   for (int i = 0; i < options.ringCount; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / options.ringCount;
     const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-    const Eigen::Vector2d xy = white + kRingFraction * locus.distanceFrom(white, direction) * direction;
+    const Eigen::Vector2d xy = white + kRingFraction * m_locus.distanceFrom(white, direction) * direction;
     add(label("ring", xy.x(), xy.y()), colourAt(xy));
   }
 }
@@ -90,11 +94,58 @@ ErrorProtocol::Report ErrorProtocol::measureAgainst(const SpectralTransform& ref
   return compare(expected, candidate);
 }
 
-ErrorProtocol::Report ErrorProtocol::compare(const std::vector<Eigen::Vector3d>& expectedRgb,
-                                             const std::function<void(std::span<float> rgba)>& candidate) const {
+Eigen::Vector3d ErrorProtocol::labOf(const Eigen::Vector3d& rgb) const {
+  return spectral::lab(m_converged.space().xyzFromRgb() * rgb, m_converged.whiteXyz());
+}
+
+ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<float> rgba)>& candidate) const {
+  std::vector<Peak> peaks(m_probes.size());
+  Report report = compare(m_expected, candidate, &peaks);
+  std::vector<std::size_t> order(m_probes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const std::size_t count = std::min(kSearched, order.size());
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                    [&](std::size_t a, std::size_t b) { return peaks[a].error > peaks[b].error; });
   const Eigen::Matrix3d xyzFromRgb = m_converged.space().xyzFromRgb();
-  const Eigen::Vector3d white = m_converged.whiteXyz();
-  const auto labOf = [&](const Eigen::Vector3d& rgb) { return spectral::lab(xyzFromRgb * rgb, white); };
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto [found, stop] = peaks[order[k]];
+    const double exposure = std::ldexp(1.0, stop);
+    const Eigen::Vector3d start = xyzFromRgb * m_probes[order[k]].rgb;
+    Eigen::Vector2d best = spectral::chromaticity(start);
+    double most = found;
+    for (double step = kLongestStep; step >= kShortestStep; step *= 0.5) {
+      const Eigen::Vector2d centre = best;
+      for (int direction = 0; direction < 8; ++direction) {
+        const double angle = std::numbers::pi / 4.0 * direction;
+        const Eigen::Vector2d xy = centre + step * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+        const Eigen::Vector3d rgb = xyzFromRgb.inverse() * spectral::xyzFromChromaticity(xy, start.y());
+        if (!(xy.y() > 0.0) || !m_locus.contains(xy) || (m_options.insideGamutOnly && rgb.minCoeff() < 0.0)) {
+          continue;
+        }
+        std::array<float, 4> pixel{};
+        Eigen::Map<Eigen::Vector4f>(pixel.data()) << (exposure * rgb).cast<float>(), 1.0F;
+        candidate(pixel);
+        const Eigen::Vector3d result = Eigen::Map<const Eigen::Vector3f>(pixel.data()).cast<double>() / exposure;
+        const double error = spectral::deltaE2000(labOf(m_converged.apply(rgb)), labOf(result));
+        if (error > most) {
+          most = error;
+          best = xy;
+        }
+        if (error > report.max) {
+          report.max = error;
+          report.worstProbe =
+              label("near xy", xy.x(), xy.y()) + " at " + (stop >= 0 ? "+" : "") + std::to_string(stop) + " stops";
+          report.worstRgb = exposure * rgb;
+        }
+      }
+    }
+  }
+  return report;
+}
+
+ErrorProtocol::Report ErrorProtocol::compare(const std::vector<Eigen::Vector3d>& expectedRgb,
+                                             const std::function<void(std::span<float> rgba)>& candidate,
+                                             std::vector<Peak>* peaks) const {
   std::vector<Eigen::Vector3d> expected;
   expected.reserve(expectedRgb.size());
   for (const Eigen::Vector3d& rgb : expectedRgb) {
@@ -119,6 +170,9 @@ ErrorProtocol::Report ErrorProtocol::compare(const std::vector<Eigen::Vector3d>&
         report.max = error;
         report.worstProbe = m_probes[i].name + " at " + (stop >= 0 ? "+" : "") + std::to_string(stop) + " stops";
         report.worstRgb = exposure * m_probes[i].rgb;
+      }
+      if (peaks != nullptr && error > (*peaks)[i].error) {
+        (*peaks)[i] = {error, stop};
       }
       errors.push_back(error);
       report.mean += error;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "metamer/sip/spectral_locus.h"
 #include "metamer/sip/spectral_transform.h"
 
 namespace metamer::sip {
@@ -54,15 +55,27 @@ class ErrorProtocol {
   Report measureAgainst(const SpectralTransform& reference,
                         const std::function<void(std::span<float> rgba)>& candidate) const;
 
+  /// The same, with the largest error looked for round the worst probes as well: where a representation bends, it lies
+  /// between them. Mean, percentile and count are measure()'s.
+  Report search(const std::function<void(std::span<float> rgba)>& candidate) const;
+
   const std::vector<Probe>& probes() const { return m_probes; }
   const SpectralTransform& converged() const { return m_converged; }
 
  private:
+  /// Where a probe errs most.
+  struct Peak {
+    double error = 0;
+    int stop = 0;
+  };
+  /// @param peaks  filled, one a probe, unless null
   Report compare(const std::vector<Eigen::Vector3d>& expected,
-                 const std::function<void(std::span<float> rgba)>& candidate) const;
+                 const std::function<void(std::span<float> rgba)>& candidate, std::vector<Peak>* peaks = nullptr) const;
+  Eigen::Vector3d labOf(const Eigen::Vector3d& rgb) const;
 
   Options m_options;
   SpectralTransform m_converged;
+  SpectralLocus m_locus;
   std::vector<Probe> m_probes;
   std::vector<Eigen::Vector3d> m_expected;  // of the converged engine at stop 0
 };
