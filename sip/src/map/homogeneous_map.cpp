@@ -9,8 +9,10 @@
 #include <limits>
 #include <memory>
 #include <memory_resource>
+#include <optional>
 #include <unordered_map>
 
+#include "map/fine_table.h"
 #include "transform/perceptual_metric.h"
 
 namespace metamer::sip {
@@ -22,6 +24,9 @@ using Map = HomogeneousMap;
 /// Down to this level a patch is checked in the middles of its edges too: on a large cell the border of what
 /// reflectances can make may pass the middle by.
 constexpr int kEdgeCheckLevels = 3;
+
+/// Of the tolerance, what the fine table may add to what the patches are off by.
+constexpr double kFineShare = 0.5;
 
 /// Cube coordinates from the white-normalised response (a, b, c): (2a - s, 2b - s, s), s the sum. On the front face
 /// they are chromaticity stretched to -1 ... 1; all that reflectances can make lies there.
@@ -102,7 +107,11 @@ struct Source {
 /// parts cannot change what comes out.
 class Part {
  public:
-  Part(const Source& source, int face, int firstRow) : m_source(source), m_face(face), m_firstRow(firstRow) {}
+  Part(const Source& source, int face, int firstRow) : m_source(source), m_face(face), m_firstRow(firstRow) {
+    if (face == Map::kFrontFace) {
+      m_fine.emplace(firstRow * kFinePerRoot, kRows * kFinePerRoot);
+    }
+  }
 
   static constexpr int kRows = 2;
 
@@ -114,6 +123,12 @@ class Part {
         addRoot(i, j);
       }
     }
+    for (const Smooth& smooth : m_smooth) {
+      m_fine->check(
+          smooth.square, [&](double u, double v) { return evaluate(smooth.patch, u, v); }, smooth.metrics,
+          kFineShare * m_source.tolerance);
+    }
+    m_smooth.clear();
     m_table.reset();
   }
 
@@ -128,6 +143,9 @@ class Part {
       map.patchIndex.push_back(patch + firstPatch);
     }
     map.patches.insert(map.patches.end(), m_patches.begin(), m_patches.end());
+    if (m_fine) {
+      m_fine->appendTo(map.fine);
+    }
     map.statistics.solves += m_statistics.solves;
     map.statistics.patches += m_statistics.patches;
     map.statistics.largestError = std::max(map.statistics.largestError, m_statistics.largestError);
@@ -241,6 +259,13 @@ class Part {
     if (worst <= 1.0 || deepest) {
       m_statistics.largestError = std::max(m_statistics.largestError, worst * m_source.tolerance);
       placed.push_back({level, i, j, store(patch, u, v, side, steps)});
+      const int cell = steps / Map::kFineSide;
+      if (m_fine && side >= cell) {
+        const auto metric = [](const Node& at) { return &at.metric; };
+        const Smooth& smooth = m_smooth.emplace_back(Smooth{
+            {u / cell, v / cell, side / cell}, patch, {metric(first), metric(second), metric(third), metric(fourth)}});
+        m_fine->fill(smooth.square, [&](double s, double t) { return evaluate(smooth.patch, s, t); });
+      }
       return;
     }
     for (int dj = 0; dj < 2; ++dj) {
@@ -272,12 +297,23 @@ class Part {
     m_roots.push_back((first << Map::kDepthBits) | static_cast<std::uint32_t>(depth));
   }
 
+  /// A patch that is no smaller than a cell of the fine table.
+  struct Smooth {
+    FineRows::Square square;
+    Adini patch;
+    std::array<const Eigen::Matrix3d*, 4> metrics;
+  };
+
+  static constexpr int kFinePerRoot = Map::kFineSide >> Map::kRootBits[Map::kFrontFace];
+
   const Source& m_source;
   int m_face;
   int m_firstRow;
   std::vector<std::uint32_t> m_roots;
   std::vector<std::uint32_t> m_patchIndex;
   std::vector<Map::Patch> m_patches;
+  std::optional<FineRows> m_fine;
+  std::vector<Smooth> m_smooth;
   Map::Statistics m_statistics;
   /// Nodes by position. None is dropped before all are.
   struct NodeTable {
@@ -319,6 +355,7 @@ HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double to
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.linearMatrix.data()) =
       transform.linearMatrix().cast<float>();
   addLinearCone(source, map);
+  map.fine = FineRows::emptyTable();
   std::deque<Part> parts;  // which hold pointers into themselves
   std::uint32_t rootCount = 0;
   for (int face = 0; face < Map::kFaceCount; ++face) {

@@ -39,6 +39,8 @@ struct HomogeneousMap {
     std::array<float, 2> offset;
   };
   static constexpr std::size_t kMostLinearNormals = 8;
+  static constexpr int kFineBits = 8;
+  static constexpr int kFineSide = 1 << kFineBits;  ///< cells
 
   std::array<float, 9> cubeFromRgb{};   ///< rows
   std::array<float, 9> linearMatrix{};  ///< rows; exact inside the linear cone
@@ -50,6 +52,11 @@ struct HomogeneousMap {
   std::array<std::uint32_t, kFaceCount> faceOffset{};  ///< of a face's first root
   std::vector<std::uint32_t> patchIndex;               ///< dense tables of the root cells
   std::vector<Patch> patches;
+  /// The front face as even nodes, kFineSide + 1 a row, row by row: red, green, blue at length 1, and 0 where the cell
+  /// that begins at the node is within the tolerance between its nodes (bilinear), else 1. Pixels in such cells take
+  /// their value from it, the others from their patches. It lies in a processor's second cache, and the part of it that
+  /// a picture takes in its first.
+  std::vector<float> fine;
 
   /// What the build did.
   struct Statistics {
