@@ -36,7 +36,7 @@ nlohmann::ordered_json entriesOf(const std::string& kind) {
       entries.push_back({{"name", format.name},
                          {"extension", format.extension},
                          {"holds", format.use},
-                         {"prelut", format.holdsPrelut}});
+                         {"shaper", format.holdsPrelut}});
     }
     return entries;
   }

@@ -66,7 +66,7 @@ class Formats(unittest.TestCase):
                        SIZE, "--format", entry["name"], "-o", file)
                 cls.files[adaptation, entry["name"]] = file
                 settings = json.loads(Path(f"{file}.json").read_text(encoding="utf-8"))["transform"]
-                cls.has_prelut[entry["name"]] = "prelut" in settings
+                cls.has_prelut[entry["name"]] = "shaper_entries" in settings
 
     def test_both_releases_read_what_was_baked(self):
         """Against the same table in the format with most digits: what a format's own precision costs."""

@@ -162,7 +162,7 @@ std::string Certificate::json() const {
     transform["shaper"] = shaper;
   }
   if (prelutSize > 0) {
-    transform["prelut"] = prelutSize;
+    transform["shaper_entries"] = prelutSize;
   }
   transform["engine_bands"] = bandCount;
   if (!sha256.empty()) {
@@ -244,7 +244,7 @@ std::vector<std::string> Certificate::lines() const {
       "space " + recipe.space + ", " + nameOf(representation) +
           (size > 0 ? ", " + std::to_string(size) + " nodes a side, " + (fitted ? "fitted" : "sampled") : "") +
           (shaper.empty() ? "" : ", shaper " + shaper) +
-          (prelutSize > 0 ? ", prelut of " + std::to_string(prelutSize) + " entries" : ""),
+          (prelutSize > 0 ? ", 1-D shaper of " + std::to_string(prelutSize) + " entries" : ""),
       figures.data(), "worst: " + error.worstProbe};
   std::array<char, 160> range{};
   std::snprintf(range.data(), range.size(), "gamut %s%s; condition %.4g, relaxation %.3g, gain %.4g, folds %.2f %%",

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "metamer/ocio/pixel_processor.h"
+#include "metamer/sip/even_spread.h"
 #include "metamer/spectral/colorimetry.h"
 #include "operators/parallel.h"
 #include "operators/perceptual_form.h"
@@ -27,21 +28,13 @@ constexpr int kBlock = 250;
 constexpr float kSignalStep = 1.0F / 2048;
 constexpr double kLightStep = 1e-3;
 
-/// Plastic constant: Roberts' R2 sequence.
-constexpr double kPlastic = 1.32471795724474602596;
 constexpr double kGolden = 1.61803398874989484820;
 
 /// The k-th chromaticity of an even spread over a gamut, at the protocol's luminance.
 Eigen::Vector3d spreadColour(const spectral::RgbSpace& space, const Eigen::Matrix3d& rgbFromXyz, int k) {
-  double u = std::fmod(0.25 + (k + 1) / kPlastic, 1.0);
-  double v = std::fmod(0.75 + (k + 1) / (kPlastic * kPlastic), 1.0);
-  if (u + v > 1.0) {
-    u = 1.0 - u;
-    v = 1.0 - v;
-  }
-  const auto& [red, green, blue] = space.primaries;
-  const Eigen::Vector2d xy = red + u * (green - red) + v * (blue - red);
-  return rgbFromXyz * spectral::xyzFromChromaticity(xy, kLuminance);
+  const double u = std::fmod(0.25 + (k + 1) / sip::kPlasticNumber, 1.0);
+  const double v = std::fmod(0.75 + (k + 1) / (sip::kPlasticNumber * sip::kPlasticNumber), 1.0);
+  return rgbFromXyz * spectral::xyzFromChromaticity(sip::inTriangle(space.primaries, u, v), kLuminance);
 }
 
 /// One chromaticity: what goes in, what should come out, and how the eye judges deviations from it.
@@ -87,7 +80,8 @@ class Sampler {
       std::vector<double> gains;
       gains.reserve(phase.size());
       for (const double start : phase) {
-        gains.push_back(std::exp2(m_lowest + m_step * (exposure + std::fmod(start + exposure / kPlastic, 1.0))));
+        gains.push_back(
+            std::exp2(m_lowest + m_step * (exposure + std::fmod(start + exposure / sip::kPlasticNumber, 1.0))));
       }
       addExposure(directions, gains, samples);
     }

@@ -11,7 +11,9 @@ namespace metamer::sip {
 namespace {
 
 /// Relative size below which a pivot of the scaled system counts as zero.
-constexpr double kRankTolerance = 1e-13;
+constexpr double kZeroPivot = 1e-13;
+/// Determinant of the three scaled equations below which they are solved as if they depended on each other.
+constexpr double kZeroDeterminant = 1e-13;
 
 /// Scale that gives each channel unit weight; a channel without weights is no constraint and keeps zero.
 Eigen::Vector3d unitScale(const Eigen::Vector3d& diagonal) {
@@ -22,7 +24,7 @@ Eigen::Vector3d unitScale(const Eigen::Vector3d& diagonal) {
 template <int n>
 Eigen::Matrix<double, n, n> pseudoInverse(const Eigen::Matrix<double, n, n>& matrix, bool& fullRank) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, n, n>> decomposition;
-  decomposition.setThreshold(kRankTolerance);
+  decomposition.setThreshold(kZeroPivot);
   decomposition.compute(matrix);
   fullRank = fullRank && decomposition.rank() == n;
   return decomposition.pseudoInverse();
@@ -132,7 +134,7 @@ void ReducedSystem::invert(const Eigen::Matrix3d& schur) {
     Eigen::Matrix3d inverse;
     double determinant = 0.0;
     bool invertible = false;
-    scaled.computeInverseAndDetWithCheck(inverse, determinant, invertible, kRankTolerance);
+    scaled.computeInverseAndDetWithCheck(inverse, determinant, invertible, kZeroDeterminant);
     if (!invertible) {
       inverse = pseudoInverse<3>(scaled, m_fullRank);
     }
