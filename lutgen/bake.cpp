@@ -157,7 +157,7 @@ void addBake(CLI::App& application) {
   command
       ->add_option("--shapersize", arguments->shaperSize,
                    "Entries of the curve before a table, where the format has one")
-      ->check(CLI::Range(2, 65536));
+      ->check(CLI::Range(ocio::kFewestCurveEntries, ocio::kMostCurveEntries));
   command->add_option("--inputspace", arguments->inputSpace, "The same as --space");
   command->add_option("--outputspace", arguments->outputSpace, "The same space again: a transform stays in it");
   CLI::Option* luts = command->add_option("--lut", arguments->luts,

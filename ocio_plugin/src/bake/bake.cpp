@@ -174,6 +174,9 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
 
 std::string convertedLuts(const std::vector<std::filesystem::path>& luts, const LutFormat& format, int size,
                           int shaperSize) {
+  if (luts.empty()) {
+    throw InputError("", "LUT files", "0", "are none; name at least one");
+  }
   BakeOptions options;
   options.size = size;
   auto group = OCIO::GroupTransform::Create();

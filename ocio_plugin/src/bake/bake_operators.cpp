@@ -5,6 +5,8 @@
 #include "cube/prelut.h"
 #include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/shaper.h"
+#include "metamer/sip/probe_limits.h"
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "operators/chained.h"
 #include "operators/signal_probes.h"
@@ -48,9 +50,8 @@ Prepared prepare(const sip::Recipe& recipe, const spectral::DataLibrary& library
 }
 
 int tableSize(const BakeOptions& options, Representation representation) {
-  if (options.size != 0 && (options.size < kSmallestTable || options.size > kLargestTable)) {
-    throw InputError("", "size", std::to_string(options.size),
-                     "must be from " + std::to_string(kSmallestTable) + " to " + std::to_string(kLargestTable));
+  if (options.size != 0) {
+    spectral::requireWithin("size", options.size, kSmallestTable, kLargestTable);
   }
   switch (representation) {
     case Representation::Identity:
@@ -83,8 +84,8 @@ sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& pr
   }
   probes.lowestStop = options.lowestStop.value_or(probes.lowestStop);
   probes.highestStop = options.highestStop.value_or(probes.highestStop);
-  constexpr int kMostStops = 24;
-  if (probes.lowestStop > probes.highestStop || probes.lowestStop < -kMostStops || probes.highestStop > kMostStops) {
+  if (probes.lowestStop > probes.highestStop || probes.lowestStop < -sip::kMostStops ||
+      probes.highestStop > sip::kMostStops) {
     throw InputError("", "stops", std::to_string(probes.lowestStop) + ":" + std::to_string(probes.highestStop),
                      "must rise, from -24 to 24");
   }
@@ -93,6 +94,9 @@ sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& pr
 
 Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, const LutFormat& format,
                        Representation representation, Certificate& certificate) {
+  if (options.shaperSize != 0) {
+    spectral::requireWithin("shaper size", options.shaperSize, kFewestCurveEntries, kMostCurveEntries);
+  }
   const WorkingSpace& space = prepared.space;
   const bool isCube = format.content != LutFormat::Content::Operators;
   certificate.representation = representation;

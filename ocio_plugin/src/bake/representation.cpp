@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/ocio/representation.h"
 
-#include <cassert>
-
 #include "metamer/ocio/exposure_invariant_chain.h"
+#include "metamer/spectral/input_error.h"
 #include "operators/matrix_operator.h"
 
 namespace metamer::ocio {
@@ -33,8 +32,7 @@ OCIO::GroupTransformRcPtr engineOperators(Representation representation, const s
     case Representation::ExposureInvariantChain:
       return exposureInvariantChain(spec, transform, {.size = size});
     case Representation::LogCube:
-      assert(false);
-      break;
+      throw spectral::InputError("", "representation", nameOf(representation), "works on a signal, not on linear RGB");
   }
   return group;
 }

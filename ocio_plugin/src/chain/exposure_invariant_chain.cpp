@@ -3,11 +3,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "chain/chain_table.h"
 #include "chain/signed_log.h"
+#include "metamer/ocio/log_cube.h"
+#include "metamer/spectral/argument_checks.h"
 #include "operators/matrix_operator.h"
 
 namespace metamer::ocio {
@@ -57,7 +58,7 @@ OCIO::Lut3DTransformRcPtr tableOf(const ChainTable& table) {
 
 OCIO::GroupTransformRcPtr exposureInvariantChain(const sip::TransformSpec& spec,
                                                  const sip::SpectralTransform& transform, const ChainOptions& options) {
-  assert(options.size >= 3 && options.size <= 129);
+  spectral::requireWithin("size", options.size, kSmallestTable, kLargestTable);
   const ChainTable table = buildChainTable(spec, transform, options.size, options.fitted);
   auto group = OCIO::GroupTransform::Create();
   group->appendTransform(matrixOperator(table.frame.inputFromRgb));

@@ -16,6 +16,8 @@
 #include "config/config_items.h"
 #include "config/config_loader.h"
 #include "config/new_config.h"
+#include "metamer/ocio/log_cube.h"
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
@@ -155,6 +157,12 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   if (options.lutFolder.empty() || fs::path(options.lutFolder).filename() != options.lutFolder ||
       options.lutFolder.find_first_of(":;$% ") != std::string::npos || options.lutFolder.front() == '.') {
     throw InputError("", "LUT folder", options.lutFolder, "must be one name, of a folder beside the config");
+  }
+  if (options.size != 0) {
+    spectral::requireWithin("size", options.size, kSmallestTable, kLargestTable);
+  }
+  if (options.tolerance) {
+    spectral::requireAbove("tolerance", *options.tolerance, 0);
   }
   const ConfigDocument document =
       options.base.empty() ? ConfigDocument(newConfigText(options.name.empty() ? file.stem().string() : options.name,

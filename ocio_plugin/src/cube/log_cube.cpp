@@ -2,7 +2,6 @@
 #include "metamer/ocio/log_cube.h"
 
 #include <array>
-#include <cassert>
 #include <vector>
 
 #include "cube/cube_fit.h"
@@ -11,6 +10,8 @@
 #include "cube/prelut.h"
 #include "cube/sampled_cube.h"
 #include "metamer/ocio/pixel_processor.h"
+#include "metamer/sip/probe_limits.h"
+#include "metamer/spectral/argument_checks.h"
 
 namespace metamer::ocio {
 namespace {
@@ -47,7 +48,9 @@ void keepBlack(std::vector<Eigen::Vector3f>& nodes, int size, const Signal& axes
 OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const Signal& signal,
                                   const LogCubeOptions& options) {
   const int size = options.size;
-  assert(size >= kSmallestTable && size <= kLargestTable);
+  spectral::requireWithin("size", size, kSmallestTable, kLargestTable);
+  spectral::requireWithin("lowest stop", options.lowestStop, -sip::kMostStops, options.highestStop);
+  spectral::requireWithin("highest stop", options.highestStop, options.lowestStop, sip::kMostStops);
   const Signal axes = options.prelut ? behindPrelut(signal, options.prelut) : signal;
   std::vector<Eigen::Vector3f> nodes = sampledCube(transform, axes, signal, size);
   if (options.fitted) {

@@ -7,7 +7,9 @@
 #include "cube/prelut.h"
 #include "files/baker_text.h"
 #include "files/cube_text.h"
+#include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/pixel_processor.h"
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 #include "operators/grey_ramp.h"
@@ -149,12 +151,16 @@ const LutFormat& lutFormat(const std::filesystem::path& file, const std::string&
 
 std::string lutText(const LutFormat& format, const OCIO::ConstGroupTransformRcPtr& group, int size,
                     const LutDescription& description, int shaperSize) {
+  if (shaperSize != 0) {
+    spectral::requireWithin("shaper size", shaperSize, kFewestCurveEntries, kMostCurveEntries);
+  }
   if (format.content == Content::Operators) {
     return groupText(format, group, description);
   }
   if (format.content == Content::Curves) {
     return spi1dText(curves(group, shaperSize > 0 ? shaperSize : kCurveEntries));
   }
+  spectral::requireWithin("size", size, kSmallestTable, kLargestTable);
   const OCIO::ConstLut1DTransformRcPtr curve = format.holdsPrelut ? leadingPrelut(group) : nullptr;
   if (format.extension != ".cube" && format.name != "spi3d") {
     return bakerText(format.name, group, curve, size, shaperSize, description);

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/missing_file_error.h"
 
@@ -38,6 +39,7 @@ PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
 }
 
 void PixelProcessor::apply(std::span<float> rgba) const {
+  spectral::requirePixels(static_cast<std::int64_t>(rgba.size()));
   if (rgba.empty()) {
     return;
   }

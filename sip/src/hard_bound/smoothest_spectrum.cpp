@@ -2,12 +2,14 @@
 #include "metamer/sip/smoothest_spectrum.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "hard_bound/band_table.h"
 #include "hard_bound/bounded_problem.h"
 #include "hard_bound/dual_active_set.h"
 #include "hard_bound/force_and_release.h"
+#include "metamer/sip/band_weights.h"
+#include "metamer/spectral/argument_checks.h"
+#include "metamer/spectral/input_error.h"
 
 namespace metamer::sip {
 
@@ -62,7 +64,7 @@ double roughness(const Eigen::VectorXd& spectrum) {
 
 SmoothestSpectrumSolver::SmoothestSpectrumSolver(Eigen::Matrix3Xd weights, UpperBound upperBound)
     : m_weights(std::move(weights)), m_upperBound(upperBound) {
-  assert(bandCount() >= kMinimumBandCount && bandCount() <= kConvergedBandCount);
+  spectral::requireWithin("bands of the weights", bandCount(), kFewestBands, kConvergedBandCount);
   m_table = std::make_shared<const BandTable>(m_weights);
   const BandStates free{};
   m_unconstrained = ReducedSystem(*m_table, free, nullptr, ReducedSystem::Held::AtBounds).response();
@@ -75,6 +77,7 @@ std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solve(
                                                                                 const ActiveSet* start) const {
   Guide guide;
   if (prior != nullptr) {
+    spectral::requireAsMany("prior", prior->size(), "the bands", bandCount());
     guide.values = *prior;
   }
   const auto relax = [&] {
@@ -101,7 +104,10 @@ std::optional<SmoothestSpectrumSolver::Solution> SmoothestSpectrumSolver::solve(
 
 std::optional<SmoothestSpectrumSolver::LinearPiece> SmoothestSpectrumSolver::linearise(
     const Eigen::Vector3d& tristimulus, const Eigen::MatrixX3d& functionals, const ActiveSet* start) const {
-  assert(m_upperBound == UpperBound::None && functionals.rows() == bandCount());
+  if (m_upperBound != UpperBound::None) {
+    throw spectral::InputError("", "upper bound", "", "a linear piece is of a solver without one");
+  }
+  spectral::requireAsMany("functionals", functionals.rows(), "the bands", bandCount());
   const BoundedProblem problem{*m_table, false, tristimulus, nullptr};
   Linearised linearised{functionals, Eigen::Matrix3d::Zero()};
   const auto relax = [&]() -> Eigen::VectorXd { return m_unconstrained * tristimulus; };

@@ -2,10 +2,11 @@
 #include "metamer/sip/comparison.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 
+#include "metamer/sip/probe_limits.h"
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/colorimetry.h"
 
 namespace metamer::sip {
@@ -68,6 +69,8 @@ Comparison summarise(std::vector<ComparedColour> colours) {
 Comparison compareTransforms(const spectral::RgbSpace& space, const std::vector<ErrorProtocol::Probe>& probes,
                              int lowestStop, int highestStop, const std::function<void(std::span<float>)>& a,
                              const std::function<void(std::span<float>)>& b) {
+  spectral::requireWithin("lowest stop", lowestStop, -kMostStops, highestStop);
+  spectral::requireWithin("highest stop", highestStop, lowestStop, kMostStops);
   const Difference difference(space);
   std::vector<ComparedColour> colours;
   std::vector<float> in(4 * probes.size());
@@ -90,7 +93,9 @@ Comparison compareTransforms(const spectral::RgbSpace& space, const std::vector<
 
 Comparison comparePixels(const spectral::RgbSpace& space, std::span<const float> a, std::span<const float> b,
                          int darkestStop) {
-  assert(a.size() == b.size());
+  spectral::requirePixels(static_cast<std::int64_t>(a.size()));
+  spectral::requireAsMany("pixels of the second picture", static_cast<std::int64_t>(b.size()), "the first has",
+                          static_cast<std::int64_t>(a.size()));
   const Difference difference(space);
   std::vector<ComparedColour> colours;
   colours.reserve(a.size() / 4);

@@ -9,7 +9,10 @@
 #include <numeric>
 
 #include "metamer/sip/band_weights.h"
+#include "metamer/sip/even_spread.h"
+#include "metamer/sip/probe_limits.h"
 #include "metamer/sip/spectral_locus.h"
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/colorimetry.h"
 
 namespace metamer::sip {
@@ -29,11 +32,19 @@ std::string label(const char* kind, double a, double b) {
   return text.data();
 }
 
+ErrorProtocol::Options checked(const ErrorProtocol::Options& options) {
+  spectral::requireWithin("chromaticities", options.chromaticityCount, 0, kMostProbes);
+  spectral::requireWithin("ring", options.ringCount, 0, kMostProbes);
+  spectral::requireWithin("lowest stop", options.lowestStop, -kMostStops, options.highestStop);
+  spectral::requireWithin("highest stop", options.highestStop, options.lowestStop, kMostStops);
+  return options;
+}
+
 }  // namespace
 
 ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectral::Spectrum>& chart,
                              const Options& options)
-    : m_options(options), m_converged(spec, kConvergedBandCount), m_locus(spec.standardObserver) {
+    : m_options(checked(options)), m_converged(spec, kConvergedBandCount), m_locus(spec.standardObserver) {
   const Eigen::Matrix3d rgbFromXyz = spec.space.rgbFromXyz();
   const Eigen::Vector2d white = spectral::chromaticity(spec.space.whiteXyz());
   const auto add = [&](std::string name, const Eigen::Vector3d& rgb) {
@@ -46,18 +57,11 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
     return rgbFromXyz * spectral::xyzFromChromaticity(xy, kProbeLuminance);
   };
 
-  // Roberts' R2 sequence on the parallelogram of two sides of the gamut, folded into the triangle.
-  const double plastic = 1.32471795724474602596;
-  const std::array<double, 2> step = {1.0 / plastic, 1.0 / (plastic * plastic)};
-  const Eigen::Vector2d& origin = spec.space.primaries[0];
+  const std::array<double, 2> step = {1.0 / kPlasticNumber, 1.0 / (kPlasticNumber * kPlasticNumber)};
   for (int i = 0, kept = 0; kept < options.chromaticityCount && i < 64 * options.chromaticityCount; ++i) {
-    double u = std::fmod(0.5 + step[0] * (i + 1), 1.0);
-    double v = std::fmod(0.5 + step[1] * (i + 1), 1.0);
-    if (u + v > 1.0) {
-      u = 1.0 - u;
-      v = 1.0 - v;
-    }
-    const Eigen::Vector2d xy = origin + u * (spec.space.primaries[1] - origin) + v * (spec.space.primaries[2] - origin);
+    const double u = std::fmod(0.5 + step[0] * (i + 1), 1.0);
+    const double v = std::fmod(0.5 + step[1] * (i + 1), 1.0);
+    const Eigen::Vector2d xy = inTriangle(spec.space.primaries, u, v);
     if (m_locus.contains(xy)) {
       add(label("xy", xy.x(), xy.y()), colourAt(xy));
       ++kept;
@@ -118,8 +122,11 @@ ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<f
       for (int direction = 0; direction < 8; ++direction) {
         const double angle = std::numbers::pi / 4.0 * direction;
         const Eigen::Vector2d xy = centre + step * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+        if (!(xy.y() > 0.0) || !m_locus.contains(xy)) {
+          continue;
+        }
         const Eigen::Vector3d rgb = xyzFromRgb.inverse() * spectral::xyzFromChromaticity(xy, start.y());
-        if (!(xy.y() > 0.0) || !m_locus.contains(xy) || (m_options.insideGamutOnly && rgb.minCoeff() < 0.0)) {
+        if (m_options.insideGamutOnly && rgb.minCoeff() < 0.0) {
           continue;
         }
         std::array<float, 4> pixel{};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "metamer/spectral/input_error.h"
+
 namespace metamer::sip {
 
 namespace {
@@ -15,6 +17,9 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 }  // namespace
 
 SpectralLocus::SpectralLocus(const spectral::Observer& observer) {
+  if (observer.response != spectral::Observer::Response::Xyz) {
+    throw spectral::InputError("", "observer", observer.name, "must be a CIE observer, whose curves are X, Y, Z");
+  }
   const auto curves = observer.onDomain();
   std::vector<Eigen::Vector2d> points;
   for (Eigen::Index i = 0; i < curves.rows(); ++i) {

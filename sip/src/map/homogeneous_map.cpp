@@ -13,6 +13,7 @@
 #include <unordered_map>
 
 #include "map/fine_table.h"
+#include "metamer/spectral/argument_checks.h"
 #include "transform/perceptual_metric.h"
 
 namespace metamer::sip {
@@ -345,6 +346,7 @@ void addLinearCone(const Source& source, Map& map) {
 
 HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance,
                                    const ParallelFor& parallelFor) {
+  spectral::requireAbove("tolerance", tolerance, 0.0);
   Map map;
   map.identity = transform.isIdentity();
   if (map.identity) {

@@ -17,12 +17,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "map/patch_lanes-inl.h"
+#include "metamer/spectral/argument_checks.h"
 #include "vector/choose_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -290,7 +290,9 @@ using ApplyMap = void(const HomogeneousMap&, const float*, float*, std::size_t);
 }  // namespace
 
 void HomogeneousMap::apply(std::span<const float> source, std::span<float> destination) const {
-  assert(source.size() == destination.size() && source.size() % 4 == 0);
+  spectral::requirePixels(static_cast<std::int64_t>(source.size()));
+  spectral::requireAsMany("destination", static_cast<std::int64_t>(destination.size()), "the source",
+                          static_cast<std::int64_t>(source.size()));
   if (identity) {
     if (source.data() != destination.data()) {
       std::copy(source.begin(), source.end(), destination.begin());

@@ -2,7 +2,8 @@
 #include "metamer/sip/band_weights.h"
 
 #include <algorithm>
-#include <cassert>
+
+#include "metamer/spectral/argument_checks.h"
 
 namespace metamer::sip {
 
@@ -24,15 +25,21 @@ BandPosition bandPosition(int index, int bandCount) {
   return {band, static_cast<double>(scaled - band * (kDomainSize - 1)) / (kDomainSize - 1)};
 }
 
+void checkBandCount(int bandCount) {
+  spectral::requireWithin("bandCount", bandCount, kMinimumBandCount, kConvergedBandCount);
+}
+
 }  // namespace
 
 double bandCentreNm(int band, int bandCount) {
+  checkBandCount(bandCount);
+  spectral::requireWithin("band", band, 0, bandCount - 1);
   return spectral::kDomainStartNm + static_cast<double>(kDomainSize - 1) * band / (bandCount - 1);
 }
 
 Eigen::Matrix3Xd bandWeights(const spectral::DomainSamples& light, const Eigen::Matrix<double, kDomainSize, 3>& curves,
                              int bandCount) {
-  assert(bandCount >= kMinimumBandCount && bandCount <= kConvergedBandCount);
+  checkBandCount(bandCount);
   Eigen::Matrix3Xd weights = Eigen::Matrix3Xd::Zero(3, bandCount);
   for (int i = 0; i < kDomainSize; ++i) {
     const BandPosition position = bandPosition(i, bandCount);
@@ -44,6 +51,7 @@ Eigen::Matrix3Xd bandWeights(const spectral::DomainSamples& light, const Eigen::
 }
 
 Eigen::VectorXd atBandCentres(const spectral::DomainSamples& samples, int bandCount) {
+  checkBandCount(bandCount);
   Eigen::VectorXd values(bandCount);
   for (int band = 0; band < bandCount; ++band) {
     const double position = static_cast<double>(kDomainSize - 1) * band / (bandCount - 1);

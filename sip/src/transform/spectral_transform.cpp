@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "metamer/sip/band_weights.h"
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "response/ray_polygon.h"
 #include "scenes/dataset_scene.h"
@@ -145,11 +146,7 @@ void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSampl
 }
 
 SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
-  if (bandCount < kMinimumBandCount || bandCount > kConvergedBandCount) {
-    throw InputError("transform", "bandCount", std::to_string(bandCount),
-                     "give a number of bands from " + std::to_string(kMinimumBandCount) + " to " +
-                         std::to_string(kConvergedBandCount));
-  }
+  spectral::requireWithin("bandCount", bandCount, kMinimumBandCount, kConvergedBandCount);
   auto state = std::make_unique<State>();
   state->space = spec.space;
   state->sides = prepareSides(spec);
@@ -197,9 +194,7 @@ Eigen::Vector3d SpectralTransform::apply(const Eigen::Vector3d& rgb) const {
 }
 
 void SpectralTransform::apply(std::span<float> rgba) const {
-  if (rgba.size() % 4 != 0) {
-    throw InputError("transform", "pixels", std::to_string(rgba.size()), "give four numbers per pixel");
-  }
+  spectral::requirePixels(static_cast<std::int64_t>(rgba.size()));
   for (std::size_t i = 0; i < rgba.size(); i += 4) {
     Eigen::Map<Eigen::Vector3f> pixel(rgba.data() + i);
     const Eigen::Vector3d result = apply(Eigen::Vector3d(pixel.cast<double>()));

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
 namespace {
@@ -126,6 +127,9 @@ Eigen::Vector2d chromaticity(const Eigen::Vector3d& xyz) {
 }
 
 Eigen::Vector3d xyzFromChromaticity(const Eigen::Vector2d& xy, double Y) {
+  if (xy.y() == 0.0 || !xy.allFinite()) {
+    throw InputError("", "chromaticity", numberText(xy.x()) + " " + numberText(xy.y()), "must be finite, and y not 0");
+  }
   return {xy.x() / xy.y() * Y, Y, (1.0 - xy.x() - xy.y()) / xy.y() * Y};
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/spectral/illuminants.h"
 
-#include <cassert>
 #include <cmath>
 
 #include "light/planck.h"
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 
@@ -44,7 +44,7 @@ Spectrum blackbody(double temperatureK) {
 }
 
 Spectrum daylight(double cctK, const std::vector<Spectrum>& basis) {
-  assert(basis.size() == 3);
+  requireAsMany("daylight basis", static_cast<std::int64_t>(basis.size()), "S0, S1, S2", 3);
   checkTemperature("daylight temperature", cctK, 4000, 25000);
   const double m = 1000.0 / cctK;
   const double x = cctK <= 7000 ? -4.6070 * m * m * m + 2.9678 * m * m + 0.09911 * m + 0.244063

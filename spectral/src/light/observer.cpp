@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/observer_of_curves.h"
 #include "metamer/spectral/text.h"
 
@@ -32,6 +33,7 @@ Eigen::Matrix<double, kDomainSize, 3> Observer::onDomain() const {
 }
 
 Observer observerOfCurves(std::string name, const std::vector<Spectrum>& curves) {
+  requireAsMany("curves", static_cast<std::int64_t>(curves.size()), "an observer has", 3);
   Observer observer{std::move(name), responseOf(curves), {curves.at(0), curves.at(1), curves.at(2)}, {}};
   if (observer.response == Observer::Response::Xyz) {
     observer.xyzFromResponse = Eigen::Matrix3d::Identity();

@@ -5,12 +5,14 @@
 #include <limits>
 #include <numeric>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/colorimetry.h"
 
 namespace metamer::stage {
 
 std::vector<double> chartDifferences(const Eigen::Matrix3Xd& rgb, const Eigen::Matrix3Xd& target,
                                      const Eigen::Matrix3d& xyzFromRgb, const Eigen::Vector3d& whiteRgb) {
+  spectral::requireAsMany("patches", rgb.cols(), "the target has", target.cols());
   const Eigen::Vector3d white = xyzFromRgb * whiteRgb;
   std::vector<double> differences(static_cast<std::size_t>(rgb.cols()), std::numeric_limits<double>::quiet_NaN());
   if (!(white.minCoeff() > 0)) {
@@ -32,6 +34,7 @@ DifferenceSummary summaryOf(const std::vector<double>& differences) {
 DifferenceSummary summaryOf(const std::vector<double>& differences, const std::vector<int>& patches) {
   DifferenceSummary summary;
   for (const int patch : patches) {
+    spectral::requireWithin("patch", patch, 0, static_cast<double>(differences.size()) - 1);
     const double difference = differences[static_cast<std::size_t>(patch)];
     summary.mean += difference / static_cast<double>(patches.size());
     summary.max = std::max(summary.max, difference);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::stage {
@@ -26,6 +27,8 @@ Eigen::Vector2d applied(const Eigen::Matrix3d& homography, const Eigen::Vector2d
 
 ChartGrid::ChartGrid(const std::vector<Eigen::Vector2d>& corners, int columns, int rows)
     : m_columns(columns), m_rows(rows) {
+  spectral::requireWithin("columns", columns, 1, kMostAlong);
+  spectral::requireWithin("rows", rows, 1, kMostAlong);
   double turn = 0;
   bool isConvex = corners.size() == 4;
   for (std::size_t i = 0; isConvex && i < 4; ++i) {
@@ -77,6 +80,7 @@ bool ChartGrid::isInSampledSquare(const Eigen::Vector2d& pixel, int column, int 
 }
 
 double likeness(const Eigen::VectorXd& values, const Eigen::VectorXd& expected) {
+  spectral::requireAsMany("values", values.size(), "are expected", expected.size());
   const Eigen::VectorXd a = values.array() - values.mean();
   const Eigen::VectorXd b = expected.array() - expected.mean();
   const double size = a.norm() * b.norm();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/input_error.h"
 
@@ -72,11 +73,24 @@ std::vector<Eigen::Vector2d> turned(std::vector<Eigen::Vector2d> corners, int qu
   return corners;
 }
 
+void check(const PictureView& picture) {
+  spectral::requireWithin("picture's width", picture.width, 1, std::numeric_limits<int>::max());
+  spectral::requireWithin("picture's height", picture.height, 1, std::numeric_limits<int>::max());
+  spectral::requireWithin("picture's channels", picture.channels, 1, std::numeric_limits<int>::max());
+  spectral::requireAsMany("picture's values", static_cast<std::int64_t>(picture.values.size()),
+                          "width x height x channels", std::int64_t{picture.width} * picture.height * picture.channels);
+  for (const int channel : picture.colours) {
+    spectral::requireWithin("picture's colours", channel, 0, picture.channels - 1);
+  }
+}
+
 }  // namespace
 
 ChartSampler::ChartSampler(const StageLayout& layout, const spectral::DataLibrary& library,
                            const std::filesystem::path& folder, std::optional<double> saturation)
     : m_layout(layout), m_names(layout.names), m_saturation(saturation) {
+  spectral::requireWithin("charts.columns", layout.columns, 1, ChartGrid::kMostAlong);
+  spectral::requireWithin("charts.rows", layout.rows, 1, ChartGrid::kMostAlong);
   const auto count = static_cast<std::size_t>(layout.columns) * static_cast<std::size_t>(layout.rows);
   const spectral::ReflectanceSet set = library.reflectances(layout.reflectances, folder);
   if (m_names.empty() && set.samples.size() == count) {
@@ -102,6 +116,7 @@ ChartSampler::ChartSampler(const StageLayout& layout, const spectral::DataLibrar
 
 ChartSampler::Sampled ChartSampler::sample(const PictureView& picture,
                                            const std::vector<Eigen::Vector2d>& corners) const {
+  check(picture);
   const ChartGrid asGiven(corners, m_layout.columns, m_layout.rows);
   Sampled result{sampledPatches(picture, asGiven, m_saturation), asGiven, 0};
   if (m_expected.cols() >= kFewestPatchesOfATurn) {
@@ -119,6 +134,7 @@ ChartSampler::Sampled ChartSampler::sample(const PictureView& picture,
 }
 
 Eigen::Vector3d meanOfBox(const PictureView& picture, const std::array<int, 4>& box, const std::string& where) {
+  check(picture);
   const auto [left, top, right, bottom] = box;
   if (left < 0 || top < 0 || left >= right || top >= bottom || right > picture.width || bottom > picture.height) {
     throw InputError(where, "box",

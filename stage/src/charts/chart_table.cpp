@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 
@@ -165,6 +166,13 @@ ChartTable parseChart(const std::string& text, const std::string& where) {
 
 AlignedCharts alignCharts(const std::vector<ChartTable>& charts, std::optional<double> saturation,
                           const std::vector<std::string>& unwanted) {
+  if (charts.empty()) {
+    throw InputError("", "charts", "0", "are none; give at least one");
+  }
+  for (const ChartTable& chart : charts) {
+    spectral::requireAsMany("names of a chart", static_cast<std::int64_t>(chart.names.size()), "its patches",
+                            chart.rgb.cols());
+  }
   AlignedCharts aligned;
   std::vector<std::unordered_map<std::string, Eigen::Index>> places(charts.size());
   std::vector<double> clipping;

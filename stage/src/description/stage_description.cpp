@@ -6,6 +6,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/yaml_section.h"
+#include "metamer/stage/chart_grid.h"
 
 namespace metamer::stage {
 namespace {
@@ -158,8 +159,8 @@ void readCaptures(const StageReader& reader, const YamlSection& top, StageDescri
   stage.target = reader.chart(charts, "target", common);
   double columns = stage.layout.columns;
   double rows = stage.layout.rows;
-  charts.read("columns", columns, 1, 1000);
-  charts.read("rows", rows, 1, 1000);
+  charts.read("columns", columns, 1, ChartGrid::kMostAlong);
+  charts.read("rows", rows, 1, ChartGrid::kMostAlong);
   stage.layout.columns = static_cast<int>(columns);
   stage.layout.rows = static_cast<int>(rows);
   charts.read("reflectances", stage.layout.reflectances);

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <limits>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 using spectral::InputError;
 
-constexpr Eigen::Index kMostEmitters = 64;
 /// Relative weights of nearly black values would be all there is.
 constexpr double kSmallestRelative = 0.01;
 
@@ -65,6 +65,9 @@ MatchSystem illuminantSystem(const EmitterColumns& emitters, const spectral::Dom
 MatchSystem reflectanceSystem(const EmitterColumns& emitters, const spectral::DomainSamples& target,
                               const ObserverCurves& curves, const std::vector<spectral::DomainSamples>& reflectances,
                               MatchWeights weights) {
+  if (reflectances.empty()) {
+    throw InputError("", "reflectances", "0", "are none; name a set");
+  }
   const double level = levelOf(target, curves);
   const auto count = static_cast<Eigen::Index>(reflectances.size());
   MatchSystem system{Eigen::MatrixXd(3 * count, emitters.cols()), Eigen::VectorXd(3 * count)};
@@ -81,6 +84,12 @@ MatchSystem reflectanceSystem(const EmitterColumns& emitters, const spectral::Do
 
 MatchSystem chartSystem(const std::vector<Eigen::Matrix3Xd>& charts, const Eigen::Matrix3Xd& target,
                         MatchWeights weights) {
+  if (target.cols() == 0) {
+    throw InputError("", "charts", "0 patches", "are empty; a chart has at least one patch");
+  }
+  for (const Eigen::Matrix3Xd& chart : charts) {
+    spectral::requireAsMany("patches of an emitter's chart", chart.cols(), "the target has", target.cols());
+  }
   MatchSystem system{Eigen::MatrixXd(target.size(), static_cast<Eigen::Index>(charts.size())), target.reshaped()};
   for (std::size_t k = 0; k < charts.size(); ++k) {
     system.matrix.col(static_cast<Eigen::Index>(k)) = charts[k].reshaped();
@@ -92,10 +101,11 @@ MatchSystem chartSystem(const std::vector<Eigen::Matrix3Xd>& charts, const Eigen
 }
 
 EmitterMatch solveMatch(const MatchSystem& system, const DriveLimits& limits) {
-  if (system.matrix.cols() == 0 || system.matrix.cols() > kMostEmitters) {
+  if (system.matrix.cols() == 0 || system.matrix.cols() > kMostDrives) {
     throw InputError("", "emitters", std::to_string(system.matrix.cols()),
-                     "must be 1 to " + std::to_string(kMostEmitters));
+                     "must be 1 to " + std::to_string(kMostDrives));
   }
+  spectral::requireAsMany("target", system.target.size(), "the rows of the matrix", system.matrix.rows());
   if (!(system.target.norm() > 0)) {
     throw InputError("", "target", "", "holds no light; check the target");
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::stage {
@@ -81,13 +82,17 @@ std::vector<EmitterChoice> selectEmitters(const std::vector<SelectionCase>& case
   }
   std::vector<ReducedCase> reducedCases;
   for (const SelectionCase& one : cases) {
+    spectral::requireAsMany("emitters of a target", one.system.matrix.cols(), "the first has", count);
+    spectral::requireAsMany("target", one.system.target.size(), "the rows of the matrix", one.system.matrix.rows());
     if (!(one.system.target.norm() > 0)) {
       throw InputError("", "target", one.name, "holds no light");
     }
     reducedCases.push_back(reduced(one.system));
   }
   unsigned kept = 0;
+  spectral::requireWithin("most", most, 0, std::numeric_limits<int>::max());
   for (const int emitter : required) {
+    spectral::requireWithin("required emitter", emitter, 0, count - 1);
     kept |= 1U << emitter;
   }
   const int fewest = std::max(1, std::popcount(kept));

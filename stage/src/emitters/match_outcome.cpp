@@ -39,6 +39,12 @@ Eigen::Matrix3Xd chartUnder(const spectral::DomainSamples& light, const Observer
   return chart;
 }
 
+void checkWeights(const MatchRequest& request) {
+  if (request.weights != "absolute" && request.weights != "relative" && request.weights != "perceptual") {
+    throw InputError(request.where, "weights", request.weights, "must be absolute, relative or perceptual");
+  }
+}
+
 MatchWeights weightsOf(const MatchRequest& request) {
   return request.weights == "relative" ? MatchWeights::Relative : MatchWeights::Absolute;
 }
@@ -80,6 +86,7 @@ void addReachNotes(MatchOutcome& outcome) {
 MatchOutcome matchSpectra(const MatchRequest& request, const Fixture& fixture, const spectral::Spectrum& target,
                           const spectral::Observer& observer, const std::vector<spectral::Spectrum>& materials,
                           const Eigen::Matrix3d& xyzFromResponse) {
+  checkWeights(request);
   const Materials charted = materialsOf(materials);
   const ObserverCurves curves = observer.onDomain();
   const spectral::DomainSamples light = target.onDomain();
@@ -111,6 +118,7 @@ MatchOutcome matchSpectra(const MatchRequest& request, const Fixture& fixture, c
 
 MatchOutcome matchCharts(const MatchRequest& request, std::vector<ChartTable> emitterCharts, const ChartTable& target,
                          const Eigen::Matrix3d& xyzFromCamera) {
+  checkWeights(request);
   const MatchMethod method = matchMethodFromName(request.method);
   if (method == MatchMethod::Spectral) {
     throw InputError(request.where, "method", request.method, "needs spectra; charts do for mim and mrm");

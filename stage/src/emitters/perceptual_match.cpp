@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/stage/emitter_match.h"
@@ -126,6 +127,12 @@ bool isWithin(const DriveLimits& limits, const VectorXd& drives) {
 
 EmitterMatch solvePerceptualMatch(const MatchSystem& system, const SeenResponses& seen,
                                   const std::vector<VectorXd>& starts, const DriveLimits& limits) {
+  if (system.target.size() % 3 != 0) {
+    throw spectral::InputError("", "target", std::to_string(system.target.size()), "must have three rows a patch");
+  }
+  for (const VectorXd& start : starts) {
+    spectral::requireAsMany("drives of a start", start.size(), "the emitters", system.matrix.cols());
+  }
   EmitterMatch match = solveMatch(system, limits);
   const SeenChart chart(system, seen);
   std::vector<VectorXd> ends = {match.drives, descend(chart, match.drives, limits)};

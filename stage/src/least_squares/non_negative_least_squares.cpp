@@ -10,6 +10,7 @@
 
 #include "least_squares/lawson_hanson.h"
 #include "least_squares/limited_descent.h"
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::stage {
@@ -124,6 +125,12 @@ void check(const DriveLimits& limits, Index count) {
 LeastSquaresSolution nonNegativeLeastSquares(const MatrixXd& matrix, const VectorXd& target,
                                              const DriveLimits& limits) {
   const Index count = matrix.cols();
+  spectral::requireWithin("columns", static_cast<double>(count), 1, kMostDrives);
+  spectral::requireWithin("rows", static_cast<double>(matrix.rows()), 1, std::numeric_limits<int>::max());
+  spectral::requireAsMany("target", target.size(), "the rows of the matrix", matrix.rows());
+  if (!matrix.allFinite() || !target.allFinite()) {
+    throw spectral::InputError("", matrix.allFinite() ? "target" : "matrix", "", "holds numbers that are not finite");
+  }
   check(limits, count);
   // As many rows as columns hold the whole problem.
   MatrixXd reduced = matrix;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::stage {
@@ -53,6 +54,11 @@ EnvironmentDriver::EnvironmentDriver(const std::vector<Eigen::Matrix3Xd>& emitte
   if (sceneCharts.empty()) {
     throw InputError("", "scene charts", "", "are none; give the chart as it looked in the real place");
   }
+  const Eigen::Index patches = emitterCharts.front().cols();
+  for (const Eigen::Matrix3Xd& chart : emitterCharts) {
+    spectral::requireAsMany("patches of an emitter's chart", chart.cols(), "the first has", patches);
+  }
+  spectral::requireWithin("white patch", whitePatch, 0, static_cast<double>(patches) - 1);
   const Eigen::Index rows = emitterCharts.front().size();
   Eigen::MatrixXd matrix(rows, count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -67,6 +73,7 @@ EnvironmentDriver::EnvironmentDriver(const std::vector<Eigen::Matrix3Xd>& emitte
   m_emitters = Eigen::MatrixXd::Zero(count, count);
   m_emitters.topRows(kept) = factors.matrixQR().topRows(kept).triangularView<Eigen::Upper>();
   for (const SceneChart& chart : sceneCharts) {
+    spectral::requireAsMany("patches of a scene chart", chart.rgb.cols(), "the emitters' have", patches);
     const Eigen::Vector3d white = chart.rgb.col(whitePatch);
     if (!(white.minCoeff() > 0)) {
       throw InputError("", "white patch", "", "gives no light in a channel of a scene chart; name the white patch");

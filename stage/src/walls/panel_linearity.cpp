@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::stage {
@@ -27,6 +28,8 @@ Eigen::Vector2d straightLine(const Eigen::VectorXd& x, const Eigen::VectorXd& y)
 }  // namespace
 
 PanelLinearity judgeLinearity(const DriveSeries& series) {
+  spectral::requireAsMany("colours of a series", series.rgb.cols(), "its drives",
+                          static_cast<std::int64_t>(series.drives.size()));
   std::vector<double> different = series.drives;
   std::sort(different.begin(), different.end());
   different.erase(std::unique(different.begin(), different.end()), different.end());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::stage {
@@ -41,6 +42,18 @@ void check(const WallCapture& capture, const WallOptions& options) {
   const Eigen::Index patches = capture.target.cols();
   if (patches == 0) {
     throw InputError("", "charts", "", "no patch is left to solve with; check the names and values of the charts");
+  }
+  for (const Matrix3Xd& chart : capture.charts) {
+    spectral::requireAsMany("patches of a chart", chart.cols(), "the target has", patches);
+  }
+  spectral::requireAsMany("patch names", static_cast<std::int64_t>(capture.patchNames.size()), "the target's patches",
+                          patches);
+  spectral::requireAbove("beta", capture.beta, 0);
+  spectral::requireWithin("held patch", options.heldPatch, -1, static_cast<double>(patches) - 1);
+  spectral::requireWithin("largest condition", options.largestCondition, 1, std::numeric_limits<double>::infinity());
+  if (options.patchWeights.size() != 0) {
+    spectral::requireAsMany("patch weights", options.patchWeights.size(), "the target's patches", patches);
+    spectral::requireWithin("patch weight", options.patchWeights.minCoeff(), 0, std::numeric_limits<double>::max());
   }
   const double strongest = capture.cameraFromWall.cwiseAbs().maxCoeff();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -78,7 +91,7 @@ void check(const WallCapture& capture, const WallOptions& options) {
 Matrix3d solveCorrection(const Matrix3Xd& predicted, const Matrix3Xd& target, const WallOptions& options) {
   const Eigen::Index patches = predicted.cols();
   Eigen::VectorXd roots = Eigen::VectorXd::Ones(patches);
-  if (options.patchWeights.size() == patches) {
+  if (options.patchWeights.size() != 0) {
     roots = options.patchWeights.cwiseSqrt();
   }
   Eigen::MatrixX3d rows = (predicted * roots.asDiagonal()).transpose();

@@ -6,9 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "metamer/spectral/argument_checks.h"
+
 namespace metamer::stage {
 
 double rectangleFormFactor(double width, double height, double distance) {
+  spectral::requireAbove("width", width, 0);
+  spectral::requireAbove("height", height, 0);
+  spectral::requireAbove("distance", distance, 0);
   const double a = 0.5 * width / distance;
   const double b = 0.5 * height / distance;
   const double sideA = std::sqrt(1 + a * a);
@@ -33,9 +38,15 @@ double LatLong::solidAngle(int row) const {
 }
 
 DiffuseConvolution::DiffuseConvolution(LatLong layout, const Eigen::Vector3d& facing)
-    : m_layout(layout), m_facing(facing.normalized()) {}
+    : m_layout(layout), m_facing(facing.normalized()) {
+  spectral::requireWithin("width", layout.width, 1, std::numeric_limits<int>::max());
+  spectral::requireWithin("height", layout.height, 1, std::numeric_limits<int>::max());
+  spectral::requireAbove("length of the direction", facing.norm(), 0);
+}
 
 void DiffuseConvolution::addRow(int row, const Eigen::Ref<const Eigen::Matrix3Xf>& rgb) {
+  spectral::requireWithin("row", row, 0, m_layout.height - 1);
+  spectral::requireAsMany("pixels of a row", rgb.cols(), "the width", m_layout.width);
   const double solidAngle = m_layout.solidAngle(row);
   for (int column = 0; column < m_layout.width; ++column) {
     const double weight = solidAngle * std::max(0.0, m_layout.direction(column, row).dot(m_facing));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/stage/wall_spectra.h"
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::stage {
@@ -11,6 +12,7 @@ WallCapture captureOf(const WallSpectra& spectra) {
   if (spectra.reflectances.empty()) {
     throw InputError("", "spectra.reflectances", "", "are none; name a chart");
   }
+  spectral::requireAbove("beta", spectra.beta, 0);
   WallCapture capture;
   capture.beta = spectra.beta;
   for (std::size_t k = 0; k < 3; ++k) {

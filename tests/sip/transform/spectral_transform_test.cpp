@@ -208,7 +208,7 @@ TEST(SpectralTransformTest, LinearConeIsTheLinearMatrix) {
 
 TEST(SpectralTransformTest, AnyBandCount) {
   const TransformSpec spec = specOf("D65", "HP1");
-  for (const int bands : {kMinimumBandCount, 7, 16, 41, 81, 128, kConvergedBandCount}) {
+  for (const int bands : {kMinimumBandCount, 41, 81, 128, kConvergedBandCount}) {
     const SpectralTransform transform(spec, bands);
     EXPECT_EQ(transform.bandCount(), bands);
     for (const Vector3d& colour : colours(100)) {

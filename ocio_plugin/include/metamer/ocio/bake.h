@@ -19,18 +19,22 @@ namespace metamer::ocio {
 struct BakeOptions {
   /// Empty: Identity where the recipe does nothing, else what the format holds best.
   std::optional<Representation> representation = {};
-  int size = 0;        ///< nodes along a side; 0: 65 for a chain, 33 for a cube. The most, where there is a tolerance
-  bool fitted = true;  ///< tables solved for least error; false: the transform's values
+  /// Nodes along a side, kSmallestTable ... kLargestTable (log_cube.h); 0: 65 for a chain, 33 for a cube. The most,
+  /// where there is a tolerance.
+  int size = 0;
+  bool fitted = true;                                ///< tables solved for least error; false: the transform's values
   std::optional<spectral::LogEncoding> shaper = {};  ///< of cubes of a linear space; empty: ACEScct
   ConfigSource config = {};                          ///< where spaces that are not built in are looked up
   /// 99th percentile of CIEDE2000 to hold, over the gamut and exposures that the certificate states, with the cheapest
-  /// that does: nothing, a matrix, a table of few nodes, of more. Not together with `representation`.
+  /// that does: nothing, a matrix, a table of few nodes, of more. Above 0; not together with `representation`.
   std::optional<double> tolerance = {};
-  /// Exposures to judge by, stops round Y = 0.18. Empty: -10 ... +10; for tables of a log signal, -7 ... +7 or as far
-  /// as the signal goes.
+  /// Exposures to judge by, stops round Y = 0.18, rising, -24 ... 24. Empty: -10 ... +10; for tables of a log signal,
+  /// -7 ... +7 or as far as the signal goes.
   std::optional<int> lowestStop = {};
   std::optional<int> highestStop = {};
-  int shaperSize = 0;  ///< entries of the curve in front of a table, in formats that have one; 0: their usual number
+  /// Entries of the curve in front of a table, in formats that have one, as lutText() takes them; 0: their usual
+  /// number.
+  int shaperSize = 0;
 };
 
 /// A recipe as an OCIO transform.
@@ -60,8 +64,10 @@ BakedText bakeText(const sip::Recipe& recipe, const spectral::DataLibrary& libra
                    const BakeOptions& options = {});
 
 /// LUT files, one after the other, as one file of another format: no recipe, so no certificate.
-/// @param size  nodes along a side where the format holds a table; 0: 33
-/// @throws spectral::InputError where OCIO cannot read one, or the format cannot hold them
+/// @param luts  at least one
+/// @param size  nodes along a side where the format holds a table, as BakeOptions; 0: 33
+/// @param shaperSize  as BakeOptions
+/// @throws spectral::InputError outside these, and where OCIO cannot read one, or the format cannot hold them
 std::string convertedLuts(const std::vector<std::filesystem::path>& luts, const LutFormat& format, int size,
                           int shaperSize);
 

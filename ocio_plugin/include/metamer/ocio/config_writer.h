@@ -19,9 +19,10 @@ struct ConfigOptions {
   std::string name;                ///< of a new config; empty: the file's stem
   std::string description;         ///< of a new config
   std::string family = "metamer";  ///< of the named transforms, above what they change
-  int size = 0;                    ///< nodes along a side of the tables, the most with a tolerance; 0: 65
+  /// Nodes along a side of the tables, kSmallestTable ... kLargestTable (log_cube.h), the most with a tolerance; 0: 65.
+  int size = 0;
   /// 99th percentile of CIEDE2000 to hold with the least: nothing, a matrix, a table of few nodes, of more. Where none
-  /// up to `size` does, the largest is taken; the certificate says what it holds.
+  /// up to `size` does, the largest is taken (above 0); the certificate says what it holds.
   std::optional<double> tolerance;
 };
 

@@ -14,7 +14,7 @@ namespace OCIO = OCIO_NAMESPACE;
 inline constexpr int kChainStops = 28;
 
 struct ChainOptions {
-  int size = 65;       ///< nodes along a side of the 3-D table, 3 ... 129
+  int size = 65;       ///< nodes along a side of the 3-D table, kSmallestTable ... kLargestTable
   bool fitted = true;  ///< nodes solved for least error; false: the transform's own values there
 };
 
@@ -30,6 +30,7 @@ struct ChainOptions {
 /// There is no colour that the table does not cover and nothing is divided on the way back: a finite pixel, however
 /// noisy or negative, gives no more than the table's own nodes times its size. Black gives black.
 /// @param spec       what `transform` was made from
+/// @throws spectral::InputError where the size is out of its range
 OCIO::GroupTransformRcPtr exposureInvariantChain(const sip::TransformSpec& spec,
                                                  const sip::SpectralTransform& transform,
                                                  const ChainOptions& options = {});

@@ -15,7 +15,7 @@ inline constexpr int kLargestTable = 129;
 struct LogCubeOptions {
   int size = 33;       ///< nodes along a side, kSmallestTable ... kLargestTable
   bool fitted = true;  ///< nodes solved for least error; false: the transform's own values there
-  /// Exposures it is fitted to: stops round Y = 0.18, as the error protocol counts them.
+  /// Exposures it is fitted to: stops round Y = 0.18, as the error protocol counts them, rising.
   double lowestStop = -7;
   double highestStop = 7;
   /// Whether nodes may be signals below 0, which stand for what leaves the gamut. False for formats of whole numbers.
@@ -31,6 +31,7 @@ struct LogCubeOptions {
 /// allows (docs/representations.md). Its neutral nodes are exact, but for the one at black or next below, which keeps
 /// black black. A sampled table has the transform's own values, however far below 0 or above 1 they lie; a fitted one
 /// lies between the lowest and the highest that real colours become.
+/// @throws spectral::InputError where the size or the stops are out of their range
 OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const Signal& signal,
                                   const LogCubeOptions& options = {});
 

@@ -44,11 +44,14 @@ struct LutDescription {
   std::vector<std::string> lines;  ///< comments or descriptions, one line each
 };
 
+inline constexpr int kFewestCurveEntries = 2;
+inline constexpr int kMostCurveEntries = 65536;
+
 /// A group of operators as the text of a file.
-/// @param size        nodes along a side where the format holds a table
+/// @param size        nodes along a side where the format holds a table, kSmallestTable ... kLargestTable (log_cube.h)
 /// @param shaperSize  entries of a curve in front of the table that the format itself asks for, or of Content::Curves;
-///                    0: its usual number
-/// @throws spectral::InputError where the group cannot be written in this format
+///                    kFewestCurveEntries ... kMostCurveEntries, or 0: its usual number
+/// @throws spectral::InputError outside these, and where the group cannot be written in this format
 std::string lutText(const LutFormat& format, const OCIO::ConstGroupTransformRcPtr& group, int size,
                     const LutDescription& description, int shaperSize = 0);
 

@@ -20,7 +20,7 @@ class PixelProcessor {
   /// @throws spectral::InputError: no such file, or OCIO cannot read it
   static PixelProcessor fromFile(const std::filesystem::path& file);
 
-  /// Applies to rgba.size() / 4 pixels in place; alpha is left alone.
+  /// Applies to rgba.size() / 4 pixels in place; alpha is left alone. @throws spectral::InputError for half a pixel
   void apply(std::span<float> rgba) const;
 
   bool isNoOp() const { return m_isNoOp; }

@@ -26,7 +26,8 @@ std::string nameOf(Representation representation);
 /// no-op.
 /// @param representation  any but LogCube, which works on a signal
 /// @param spec            what `transform` was made from
-/// @param size            nodes along a side of a table
+/// @param size            nodes along a side of a table, kSmallestTable ... kLargestTable (log_cube.h)
+/// @throws spectral::InputError for a LogCube, and for a chain of another size
 OCIO::GroupTransformRcPtr engineOperators(Representation representation, const sip::TransformSpec& spec,
                                           const sip::SpectralTransform& transform, int size);
 

@@ -33,12 +33,12 @@ struct Comparison {
 Comparison summarise(std::vector<ComparedColour> colours);
 
 /// Runs probes at every stop from `lowestStop` to `highestStop` through two transforms of RGBA pixels, in place, linear
-/// in `space`. The figure is the error protocol's (docs/error_protocol.md): both results divided by 2^stop.
+/// in `space`; the figure is the error protocol's (docs/error_protocol.md). @throws spectral::InputError: falling stops
 Comparison compareTransforms(const spectral::RgbSpace& space, const std::vector<ErrorProtocol::Probe>& probes,
                              int lowestStop, int highestStop, const std::function<void(std::span<float>)>& a,
                              const std::function<void(std::span<float>)>& b);
 
-/// Compares two pictures of the same number of RGBA pixels, linear in `space`, pixel by pixel. Both are divided by the
+/// Compares two pictures of as many RGBA pixels (else an InputError), linear in `space`. Both are divided by the
 /// exposure of the first (its luminance over 0.18), as if every pixel were a probe; what is more than `darkestStop`
 /// stops below 0.18 counts as if it were there, so that noise in the dark is no error. A stop is the pixel's own.
 Comparison comparePixels(const spectral::RgbSpace& space, std::span<const float> a, std::span<const float> b,

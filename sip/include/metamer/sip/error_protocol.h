@@ -25,10 +25,10 @@ class ErrorProtocol {
   static constexpr const char* kChart = "colorchecker";
 
   struct Options {
-    int chromaticityCount = 1024;
+    int chromaticityCount = 1024;  ///< 0 ... kMostProbes (probe_limits.h), as the ring's
     int ringCount = 96;
-    int lowestStop = -10;
-    int highestStop = 10;
+    int lowestStop = -10;          ///< -kMostStops ... highestStop
+    int highestStop = 10;          ///< lowestStop ... kMostStops
     bool insideGamutOnly = false;  ///< leave out probes with a negative component: what a log cube cannot hold
   };
   struct Probe {
@@ -44,7 +44,7 @@ class ErrorProtocol {
     Eigen::Vector3d worstRgb = Eigen::Vector3d::Zero();
   };
 
-  /// @param chart  reflectances of the chart, with their names
+  /// @param chart  reflectances of the chart, with their names. @throws spectral::InputError: an option out of range
   ErrorProtocol(const TransformSpec& spec, const std::vector<spectral::Spectrum>& chart, const Options& options);
   ErrorProtocol(const TransformSpec& spec, const std::vector<spectral::Spectrum>& chart)
       : ErrorProtocol(spec, chart, Options{}) {}

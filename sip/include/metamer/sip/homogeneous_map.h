@@ -68,7 +68,8 @@ struct HomogeneousMap {
 
   /// Applies to rgba.size() / 4 pixels in place; alpha is left alone. The result of a pixel does not depend on its
   /// neighbours, the length of the span or the instruction set. A pixel with a NaN or infinite component is left
-  /// unchanged. `source` and `destination` are equal or do not overlap.
+  /// unchanged. `source` and `destination` are equal or apart. @throws spectral::InputError: lengths differ, half a
+  /// pixel
   void apply(std::span<const float> source, std::span<float> destination) const;
   void apply(std::span<float> rgba) const { apply(rgba, rgba); }
 };
@@ -83,10 +84,10 @@ using ParallelFor = std::function<void(int count, const std::function<void(int)>
 void inOrder(int count, const std::function<void(int)>& body);
 
 /// Builds the map of a transform, the same whatever the threads.
-/// @param tolerance  CIEDE2000 at Y = 0.18, relative to the working white, at each patch's checked points. Patches at
-/// the
-///                   greatest depth may exceed it (statistics.largestError says by how much).
+/// @param tolerance  above 0: CIEDE2000 at Y = 0.18, relative to the working white, at each patch's checked points.
+///                   Patches at the greatest depth may exceed it (statistics.largestError says by how much).
 /// @param parallelFor  runs the parts of the map
+/// @throws spectral::InputError where the tolerance is not above 0
 HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance = kDefaultMapTolerance,
                                    const ParallelFor& parallelFor = inOrder);
 

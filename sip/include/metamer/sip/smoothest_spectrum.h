@@ -48,8 +48,11 @@ ActiveSet between(const ActiveSet& a, const ActiveSet& b);
 class SmoothestSpectrumSolver {
  public:
   enum class UpperBound { None, One };
+  /// One more than the equations: any weights will do here, such as the seven bands of a worked example.
+  static constexpr int kFewestBands = 4;
 
-  /// @param weights  3 x B (eq. 5.3). A row of zeros is no constraint.
+  /// @param weights  3 x B (eq. 5.3), B kFewestBands ... kConvergedBandCount. A row of zeros is no constraint.
+  /// @throws spectral::InputError for another number of bands
   explicit SmoothestSpectrumSolver(Eigen::Matrix3Xd weights, UpperBound upperBound = UpperBound::None);
 
   struct Solution {
@@ -63,6 +66,7 @@ class SmoothestSpectrumSolver {
   /// @param prior        P, B values, or null for none
   /// @param start        a guess of the active set; changes the time, not the answer
   /// @return nothing where no spectrum within the bounds has this tristimulus
+  /// @throws spectral::InputError where the prior has another number of values
   std::optional<Solution> solve(const Eigen::Vector3d& tristimulus, const Eigen::VectorXd* prior = nullptr,
                                 const ActiveSet* start = nullptr) const;
 
@@ -74,6 +78,7 @@ class SmoothestSpectrumSolver {
   /// The same solve for some functionals of the spectrum, which cost less than the spectrum itself. No prior, no upper
   /// bound.
   /// @param functionals  F, B x 3
+  /// @throws spectral::InputError for another number of rows, and where the solver has an upper bound
   std::optional<LinearPiece> linearise(const Eigen::Vector3d& tristimulus, const Eigen::MatrixX3d& functionals,
                                        const ActiveSet* start = nullptr) const;
 

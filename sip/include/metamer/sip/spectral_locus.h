@@ -12,6 +12,7 @@ namespace metamer::sip {
 class SpectralLocus {
  public:
   /// @param observer  a CIE observer: its curves are XYZ
+  /// @throws spectral::InputError for an observer of another response
   explicit SpectralLocus(const spectral::Observer& observer);
 
   bool contains(const Eigen::Vector2d& xy) const;

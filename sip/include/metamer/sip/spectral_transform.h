@@ -59,7 +59,7 @@ struct TransformSpec {
 class SpectralTransform {
  public:
   /// @param bandCount kMinimumBandCount ... kConvergedBandCount
-  /// @throws spectral::InputError where the specification has no meaning (no light, a white the CAT cannot reach)
+  /// @throws spectral::InputError outside these, or where the specification has no meaning (no light reaches a side)
   explicit SpectralTransform(const TransformSpec& spec, int bandCount = kDefaultBandCount);
   ~SpectralTransform();
   SpectralTransform(SpectralTransform&&) noexcept;
@@ -68,7 +68,7 @@ class SpectralTransform {
   /// Exact result for one colour. A colour with a NaN or infinite component comes back unchanged.
   Eigen::Vector3d apply(const Eigen::Vector3d& rgb) const;
 
-  /// The same for `rgba.size() / 4` pixels in place; alpha is left alone.
+  /// The same for `rgba.size() / 4` pixels in place; alpha is left alone. @throws spectral::InputError for half a pixel
   void apply(std::span<float> rgba) const;
 
   /// The transform near one colour, to first order.

@@ -19,7 +19,7 @@ Eigen::Vector3d tristimulus(const Spectrum& reflectance, const Spectrum& light, 
 /// Chromaticity (x, y) of a tristimulus; (0, 0) where X+Y+Z is not positive.
 Eigen::Vector2d chromaticity(const Eigen::Vector3d& xyz);
 
-/// Tristimulus of a chromaticity with luminance Y. y must not be 0.
+/// Tristimulus of a chromaticity with luminance Y. @throws InputError where y is 0 or not finite
 Eigen::Vector3d xyzFromChromaticity(const Eigen::Vector2d& xy, double Y = 1.0);
 
 /// CIE 1976 u', v' of a tristimulus.

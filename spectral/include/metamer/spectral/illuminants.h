@@ -16,7 +16,7 @@ Spectrum blackbody(double temperatureK);
 /// 360-830 nm every 5 nm.
 /// @param cctK  4000 ... 25000 K, nominal (no 1.4388/1.4380 rescaling: give 6504 for D65)
 /// @param basis the table of the components S0, S1, S2 (columns of 3) from data/
-/// @throws InputError outside that range
+/// @throws InputError outside that range, or where the basis is not three
 Spectrum daylight(double cctK, const std::vector<Spectrum>& basis);
 
 }  // namespace metamer::spectral

@@ -6,7 +6,7 @@
 
 namespace metamer::spectral {
 
-/// Bad input from outside: a file, a recipe, a name, a number somebody typed.
+/// Bad input from outside: a file, a recipe, a name, a number, an argument out of its documented range.
 ///
 /// `what()` is one line: "WHERE: FIELD 'VALUE': REMEDY". Parts that do not apply are left out.
 /// Programmer faults are assertions, never this.

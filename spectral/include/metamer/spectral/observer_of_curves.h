@@ -11,6 +11,7 @@ namespace metamer::spectral {
 /// An observer of three curves whose names say what it is: X, Y, Z where they are "x", "y", "z" or "x_bar", ...; cones
 /// where they are "l", "m", "s" or "l_bar", ...; else a camera without a published matrix.
 /// @param curves  three
+/// @throws InputError for another number
 Observer observerOfCurves(std::string name, const std::vector<Spectrum>& curves);
 
 }  // namespace metamer::spectral

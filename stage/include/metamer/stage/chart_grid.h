@@ -10,8 +10,11 @@ namespace metamer::stage {
 /// Where the patches of a photographed chart lie: a perspective of a grid of equal cells.
 class ChartGrid {
  public:
+  static constexpr int kMostAlong = 1000;
+
   /// @param corners  four pixels: the outer corner of the first patch, then that at the end of its row, then round
-  /// @throws spectral::InputError where they are not the corners of a convex quadrilateral
+  /// @param columns, rows  of patches, 1 ... kMostAlong
+  /// @throws spectral::InputError outside that range, or where they are not the corners of a convex quadrilateral
   ChartGrid(const std::vector<Eigen::Vector2d>& corners, int columns, int rows);
 
   int columns() const { return m_columns; }
@@ -32,6 +35,7 @@ class ChartGrid {
 };
 
 /// How alike two lists of values are up to scale and offset: Pearson's correlation, 0 where one is constant.
+/// @throws spectral::InputError where they differ in length
 double likeness(const Eigen::VectorXd& values, const Eigen::VectorXd& expected);
 
 }  // namespace metamer::stage

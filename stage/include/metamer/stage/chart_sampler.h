@@ -26,7 +26,7 @@ class ChartSampler {
 
   /// @param folder      of relative files in the layout
   /// @param saturation  from this value on a pixel is clipped
-  /// @throws spectral::InputError: names that do not fit the grid, an unknown reflectance set
+  /// @throws spectral::InputError: a grid that ChartGrid refuses, names that do not fit it, an unknown reflectance set
   ChartSampler(const StageLayout& layout, const spectral::DataLibrary& library, const std::filesystem::path& folder,
                std::optional<double> saturation = std::nullopt);
 
@@ -35,7 +35,8 @@ class ChartSampler {
   /// The mean of each patch's sampled square. A square outside the picture, or with pixels that are not finite, is a
   /// missing patch; one with clipped pixels gets the saturation value. Corners in the picture's order on a chart that
   /// lies turned are told by the chart's own reflectances.
-  /// @throws spectral::InputError where the corners are not those of a convex quadrilateral
+  /// @throws spectral::InputError where the corners are not those of a convex quadrilateral, or the view does not fit
+  ///         its values
   Sampled sample(const PictureView& picture, const std::vector<Eigen::Vector2d>& corners) const;
 
  private:
@@ -47,7 +48,8 @@ class ChartSampler {
 
 /// The mean over a box of pixels: left, top, right, bottom; the last two are outside.
 /// @param where  what messages call the picture
-/// @throws spectral::InputError: a box that is empty or leaves the picture, pixels that are not finite
+/// @throws spectral::InputError: a box that is empty or leaves the picture, pixels that are not finite, a view that
+///         does not fit its values
 Eigen::Vector3d meanOfBox(const PictureView& picture, const std::array<int, 4>& box, const std::string& where);
 
 }  // namespace metamer::stage

@@ -42,6 +42,7 @@ struct AlignedCharts {
 /// saturated ones, and those of `unwanted`.
 /// @param saturation  from this value on a channel is clipped. Without it, a chart's clipping shows as its largest
 ///                    value where two or more different patches share it to the last digit
+/// @throws spectral::InputError: no charts, a chart whose names are not as many as its patches
 AlignedCharts alignCharts(const std::vector<ChartTable>& charts, std::optional<double> saturation,
                           const std::vector<std::string>& unwanted = {});
 

@@ -41,17 +41,20 @@ using ObserverCurves = Eigen::Matrix<double, spectral::kDomainSize, 3>;
 MatchSystem spectralSystem(const EmitterColumns& emitters, const spectral::DomainSamples& target);
 
 /// MIM: three rows, the response to the light, divided by the target's own level (its second component).
+/// @throws spectral::InputError where the target gives the observer no light
 MatchSystem illuminantSystem(const EmitterColumns& emitters, const spectral::DomainSamples& target,
                              const ObserverCurves& curves);
 
 /// MRM: three rows a reflectance (responses one after another), divided by the target's own level on the perfect
 /// reflector.
+/// @throws spectral::InputError as illuminantSystem, and where there are no reflectances
 MatchSystem reflectanceSystem(const EmitterColumns& emitters, const spectral::DomainSamples& target,
                               const ObserverCurves& curves, const std::vector<spectral::DomainSamples>& reflectances,
                               MatchWeights weights = MatchWeights::Absolute);
 
 /// MRM without any spectrum (section 2.5.2): a chart's picture under each emitter, and under the target.
 /// @param charts  one an emitter, 3 x patches
+/// @throws spectral::InputError where one has other patches than the target, or there are none
 MatchSystem chartSystem(const std::vector<Eigen::Matrix3Xd>& charts, const Eigen::Matrix3Xd& target,
                         MatchWeights weights = MatchWeights::Absolute);
 
@@ -65,7 +68,8 @@ struct EmitterMatch {
 };
 
 /// Non-negative least squares, within limits where given; of equally good drives the shortest (minimum norm).
-/// @throws spectral::InputError: no emitter, more than 64, a target of nothing, no emitter with any light
+/// @throws spectral::InputError: no emitter, more than 64, a target of nothing or of another length than the matrix,
+///         no emitter with any light
 EmitterMatch solveMatch(const MatchSystem& system, const DriveLimits& limits = {});
 
 /// What an observer's responses look like.
@@ -82,7 +86,8 @@ struct SeenResponses {
 /// `residualNorm`, `relativeResidual`, `rank` and `condition` are of the system, as of solveMatch.
 /// @param system   three rows a patch, with absolute weights
 /// @param starts   other drives to set out from, such as MIM's; those beyond the limits are left out
-/// @throws spectral::InputError as solveMatch, and where white has no luminance
+/// @throws spectral::InputError as solveMatch, and where white has no luminance, rows are not three a patch, or a start
+///         has not a drive for each emitter
 EmitterMatch solvePerceptualMatch(const MatchSystem& system, const SeenResponses& seen,
                                   const std::vector<Eigen::VectorXd>& starts, const DriveLimits& limits = {});
 

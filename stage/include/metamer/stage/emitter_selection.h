@@ -28,11 +28,12 @@ inline constexpr int kMostSelectable = 16;
 /// The best emitters of each count (section 2.6; LeGendre et al. 2017): all subsets are solved for all cases by
 /// non-negative least squares, and the one with the least error wins; of equals the first in the emitters' order.
 /// @param cases     at least one, all of the same emitters
-/// @param required  emitters that every subset holds
-/// @param most      largest count; 0: all
+/// @param required  emitters that every subset holds, 0 ... emitters - 1
+/// @param most      largest count, 1 or more; 0: all
 /// @param progress  called now and then with the share done, 0 ... 1; may be empty
 /// @return one choice a count, from the required ones' (at least 1) up
-/// @throws spectral::InputError: no case, more than kMostSelectable emitters, a case without light
+/// @throws spectral::InputError: no case, more than kMostSelectable emitters, a case without light or of other emitters
+///         than the first, a required emitter that is not there, a count below 0
 std::vector<EmitterChoice> selectEmitters(const std::vector<SelectionCase>& cases,
                                           const std::vector<int>& required = {}, int most = 0,
                                           const std::function<void(double)>& progress = {});

@@ -34,7 +34,8 @@ class EnvironmentDriver {
   /// @param emitterCharts  one an emitter at a drive of 1, 3 x patches, as a whole sphere of it would light the chart
   /// @param sceneCharts    one to six, or more
   /// @param whitePatch     column of the white patch
-  /// @throws spectral::InputError: no emitters or too many, no charts, a white without light, bad limits
+  /// @throws spectral::InputError: no emitters or too many, no charts, charts of different patches, a white that is not
+  ///         there or without light, bad limits
   EnvironmentDriver(const std::vector<Eigen::Matrix3Xd>& emitterCharts, const std::vector<SceneChart>& sceneCharts,
                     int whitePatch, DriveLimits limits = {});
 

@@ -47,15 +47,16 @@ void addReachNotes(MatchOutcome& outcome);
 
 /// Drives from spectra (sections 2.4.1 to 2.4.3). Names in the outcome that are the caller's (target, reflectances)
 /// stay empty.
+/// @param materials        at least one
 /// @param xyzFromResponse  of the observer under the target, at any scale
-/// @throws spectral::InputError
+/// @throws spectral::InputError: an unknown method or weights, and as the systems of emitter_match.h and their solution
 MatchOutcome matchSpectra(const MatchRequest& request, const Fixture& fixture, const spectral::Spectrum& target,
                           const spectral::Observer& observer, const std::vector<spectral::Spectrum>& materials,
                           const Eigen::Matrix3d& xyzFromResponse);
 
 /// Drives from pictures alone (section 2.5.2): the chart under each emitter, and under the target. Emitters, observer
 /// and reflectances have no names yet in the outcome.
-/// @throws spectral::InputError: the spectral method, charts without a common patch
+/// @throws spectral::InputError: the spectral method, an unknown one, unknown weights, charts without a common patch
 MatchOutcome matchCharts(const MatchRequest& request, std::vector<ChartTable> emitterCharts, const ChartTable& target,
                          const Eigen::Matrix3d& xyzFromCamera);
 

@@ -22,7 +22,7 @@ struct PanelLinearity {
 };
 
 /// Whether a panel's light is proportional to what is sent, as sections 2.7.1 and 2.7.2 take for given.
-/// @throws spectral::InputError: too few drives, no rise
+/// @throws spectral::InputError: too few drives, colours that are not as many, no rise
 PanelLinearity judgeLinearity(const DriveSeries& series);
 
 }  // namespace metamer::stage

@@ -15,7 +15,7 @@ struct WallCapture {
   Eigen::Matrix3Xd target;                 ///< T: the chart in the real place
   std::vector<std::string> patchNames;     ///< one a column of the charts
   Eigen::Vector3d environmentWhite;        ///< w_avg: what a white chart would send back of the environment
-  double beta = 1;                         ///< see calibrationSquareBeta
+  double beta = 1;                         ///< see calibrationSquareBeta; above 0
   Eigen::Vector3d blackLevel = Eigen::Vector3d::Zero();  ///< b: the unlit part of the wall, as the camera saw it
 };
 
@@ -24,8 +24,8 @@ inline constexpr double kDefaultLargestCondition = 100;
 
 struct WallOptions {
   int heldPatch = -1;            ///< patch whose colour Q holds exactly (white); -1: none
-  Eigen::VectorXd patchWeights;  ///< weight of each patch in Q's sum of squares; empty: 1
-  double largestCondition = kDefaultLargestCondition;
+  Eigen::VectorXd patchWeights;  ///< weight of each patch in Q's sum of squares, not negative; empty: 1
+  double largestCondition = kDefaultLargestCondition;  ///< 1 or more
 };
 
 /// What bounding N at one condition number of Q costs and buys.
@@ -60,7 +60,8 @@ struct WallSolution {
 /// above `largestCondition` (a target light near one wavelength makes Q nearly rank one), Q's small singular values are
 /// raised to the largest over that number before it is inverted for N.
 /// @throws spectral::InputError: a dead or collinear primary, a dead chart channel, an environment without light,
-///         a black level above the wall's signal, no patches, a held patch without light
+///         a black level above the wall's signal, no patches, a held patch without light, charts, names or weights that
+///         are not as many as the target's patches, an option out of its range
 WallSolution solveWall(const WallCapture& capture, const WallOptions& options = {});
 
 }  // namespace metamer::stage
