@@ -99,7 +99,8 @@ void bindSpectra(nb::module_& module) {
           },
           "file"_a, nb::kw_only(), "quantity"_a,
           nb::sig("def read(file: str | os.PathLike[str], *, quantity: metamer._types.Quantity) -> list[Spectrum]"),
-          "The spectra of a file, one a data column: .csv .txt .tsv, IES TM-27 .spdx, rawtoaces .json.")
+          "The spectra of a file, one a curve: tables as meters write them, CGATS, IES TM-27 .spdx, rawtoaces "
+          ".json. FILE:COLUMN is one of them.")
       .def_prop_ro("name", [](const Spectrum& self) { return self.name(); })
       .def_prop_ro(
           "quantity", [](const Spectrum& self) { return nameOf(self.quantity()); },

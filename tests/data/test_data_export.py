@@ -18,7 +18,7 @@ from pathlib import Path
 
 from tables import DATA, find, load_manifest, PINNED, read_table, SCRIPT, SPACES
 
-HAND_WRITTEN = {"README.md", "sources/camera_fits.json", "sources/model_skins_100.csv"}
+HAND_WRITTEN = {"README.md", "words.json", "sources/camera_fits.json", "sources/model_skins_100.csv"}
 QUANTITIES = {
     "illuminants": "spectral power distribution",
     "daylight_basis": "spectral power distribution",
@@ -124,6 +124,22 @@ class Manifest(unittest.TestCase):
                 self.assertNotIn(b"\r", content)
                 self.assertEqual("shape" in t, t["group"] not in NO_SPECTRA)
                 self.assertEqual("response" in t, t["group"] == "observers")
+
+    def test_words(self) -> None:
+        """Each light, filter and observer is described once; nothing else is."""
+        document = json.loads((DATA / "words.json").read_text(encoding="utf-8"))
+        self.assertTrue(document["source"].strip())
+        described = [(e["group"], name) for e in document["entries"] for name in e["names"]]
+        named = {
+            (t["group"], name)
+            for t in load_manifest()
+            if t["group"] in ("illuminants", "filters", "observers")
+            for name in t["names"]
+        }
+        self.assertEqual(len(described), len(set(described)))
+        self.assertEqual(set(described), named)
+        for entry in document["entries"]:
+            self.assertTrue(entry["description"].strip() and entry["words"], entry["names"])
 
     def test_names_are_unique(self) -> None:
         """No name occurs twice in a group, whatever its case."""

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_integral.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
@@ -104,12 +105,12 @@ Terms2000 terms2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) {
 }  // namespace
 
 Eigen::Vector3d response(const Spectrum& power, const Observer& observer) {
-  return observer.onDomain().transpose() * power.onDomain();
+  const SeenLight seen = seenLight(power, {}, observer);
+  return seen.curves.transpose() * seen.light;
 }
 
 Eigen::Vector3d tristimulus(const Spectrum& reflectance, const Spectrum& light, const Observer& observer) {
-  const Eigen::Matrix<double, kDomainSize, 3> curves = observer.onDomain();
-  const DomainSamples power = light.onDomain();
+  const auto [power, curves] = seenLight(light, {}, observer);
   const double white = curves.col(1).dot(power);
   // The comparison also refuses NaN.
   if (!(white > 0)) {
@@ -152,7 +153,9 @@ Eigen::Vector3d lab(const Eigen::Vector3d& xyz, const Eigen::Vector3d& white) {
 double deltaE2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) {
   const auto [l, c, h, rotation, midpoint] = terms2000(lab1, lab2);
   // The rotation term can outweigh the squares by a rounding error between equal colours.
-  return std::sqrt(std::max(0.0, l * l + c * c + h * h + rotation * c * h));
+  const double square = l * l + c * c + h * h + rotation * c * h;
+  // Written so that NaN stays NaN: no difference must not be what is no number.
+  return square < 0.0 ? 0.0 : std::sqrt(square);
 }
 
 Eigen::Vector3d difference2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) {

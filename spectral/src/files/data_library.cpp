@@ -11,6 +11,7 @@
 
 #include "files/csv_reader.h"
 #include "files/data_manifest.h"
+#include "files/data_words.h"
 #include "metamer/spectral/illuminants.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
@@ -53,6 +54,10 @@ class LoadedTable {
       throw InputError(where, "columns", std::to_string(spectra.size() + 1),
                        "the manifest needs " + std::to_string(needed + 1));
     }
+    // Notes are for who reads a file; what these tables are stands in the manifest.
+    for (Spectrum& spectrum : spectra) {
+      spectrum = spectrum.withNotes({});
+    }
     return spectra;
   }
 
@@ -88,8 +93,8 @@ std::optional<double> daylightKelvin(const std::string& name) {
 /// The one spectrum of a user's file.
 Spectrum onlySpectrum(std::vector<Spectrum> spectra, const std::string& file) {
   if (spectra.size() != 1) {
-    throw InputError(file, "columns", std::to_string(spectra.size() + 1),
-                     "must be 2, a wavelength and a value; keep the column to use");
+    throw InputError(file, "columns", std::to_string(spectra.size()),
+                     "are several curves; name one as FILE:COLUMN, of: " + columnsText(spectra));
   }
   return std::move(spectra.front());
 }
@@ -119,6 +124,17 @@ struct DataLibrary::State {
   std::filesystem::path folder;
   /// A deque, because a table's mutex cannot move.
   std::deque<LoadedTable> tables;
+  DataWords words;
+
+  std::vector<std::string> namesFound(const std::string& group, const std::string& text) const {
+    std::vector<std::string> found;
+    for (const std::string& name : namesOf(group)) {
+      if (words.isFound(group, name, text)) {
+        found.push_back(name);
+      }
+    }
+    return found;
+  }
 
   std::vector<std::string> namesOf(const std::string& group) const {
     std::vector<std::string> names;
@@ -155,7 +171,21 @@ struct DataLibrary::State {
   }
 
   [[noreturn]] void throwUnknown(const std::string& group, const std::string& name) const {
-    throw InputError("", singular(group), name, unknownNameRemedy(name, namesOf(group), listCommand(group)));
+    constexpr std::size_t kMost = 8;
+    std::vector<std::string> found;
+    for (const std::string& known : namesOf(group)) {
+      if (words.isWordFor(group, known, name)) {
+        found.push_back(known);
+      }
+    }
+    if (found.empty()) {
+      throw InputError("", singular(group), name, unknownNameRemedy(name, namesOf(group), listCommand(group)));
+    }
+    const bool areMore = found.size() > kMost;
+    found.resize(std::min(found.size(), kMost));
+    throw InputError("", singular(group), name,
+                     "is no name, but a word for: " + joined(found) + (areMore ? ", ..." : "") +
+                         "; see: " + listCommand(group) + " " + lowerCase(trimmed(name)));
   }
 
   /// The spectra of a file that the user named, or no value where the text names no file.
@@ -179,6 +209,7 @@ struct DataLibrary::State {
     for (ManifestTable& table : readManifest(folder)) {
       state->tables.emplace_back(folder, std::move(table));
     }
+    state->words = readWords(folder);
     return state;
   }
 };
@@ -291,6 +322,14 @@ ColourSpace DataLibrary::colourSpace(const std::string& name) const {
   throw InputError("", "space", name, unknownNameRemedy(name, names, listCommand("rgb_spaces")));
 }
 
+NameDescription DataLibrary::description(const std::string& group, const std::string& name) const {
+  return m_state->words.of(group, name);
+}
+
+std::vector<std::string> DataLibrary::namesFound(const std::string& group, const std::string& text) const {
+  return m_state->namesFound(group, text);
+}
+
 Provenance DataLibrary::provenance(const std::string& group, const std::string& nameOrFile) const {
   const auto ofTable = [&](const ManifestTable& table) {
     return Provenance{nameOrFile, table.file, table.sha256, table.source, table.licence};
@@ -309,7 +348,7 @@ Provenance DataLibrary::provenance(const std::string& group, const std::string& 
     return ofTable(m_state->onlyTable("daylight_basis").description());
   }
   if (looksLikeSpectralFile(nameOrFile)) {
-    return {nameOrFile, nameOrFile, "", "", ""};
+    return {nameOrFile, spectralFileName(nameOrFile).file, "", "", ""};
   }
   m_state->throwUnknown(group, nameOrFile);
 }

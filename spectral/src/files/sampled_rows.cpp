@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "files/usable_curve.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 
@@ -50,32 +51,35 @@ bool checkedFalling(const SampledRows& rows) {
   return falling;
 }
 
-void checkNonNegative(const SampledRows& rows, SpectralQuantity quantity) {
-  if (quantity == SpectralQuantity::Sensitivity) {
-    return;
+/// Rows by rising wavelength; messages keep the rows of the file.
+void turnRound(SampledRows& rows) {
+  const std::size_t last = rows.wavelengthsNm.size() - 1;
+  std::reverse(rows.wavelengthsNm.begin(), rows.wavelengthsNm.end());
+  for (std::vector<double>& column : rows.columns) {
+    std::reverse(column.begin(), column.end());
   }
-  for (std::size_t c = 0; c < rows.columns.size(); ++c) {
-    const auto negative = std::find_if(rows.columns[c].begin(), rows.columns[c].end(), [](double v) { return v < 0; });
-    if (negative != rows.columns[c].end()) {
-      throw InputError(rows.rowWhere(static_cast<std::size_t>(negative - rows.columns[c].begin())),
-                       quantityName(quantity), numberText(*negative),
-                       "must not be negative; set measurement noise below zero to 0");
-    }
+  std::map<std::pair<std::size_t, std::size_t>, std::string> flaws;
+  for (auto& [place, text] : rows.flaws) {
+    flaws.emplace(std::pair(last - place.first, place.second), std::move(text));
   }
+  rows.flaws = std::move(flaws);
+  rows.rowWhere = [where = std::move(rows.rowWhere), last](std::size_t row) { return where(last - row); };
 }
 
 /// Divisor that turns the values into 0 ... 1.
-double checkedDivisor(const SampledRows& rows, SpectralQuantity quantity, StatedScale scale) {
+double checkedDivisor(const SampledRows& rows, const std::vector<UsableCurve>& curves, SpectralQuantity quantity,
+                      StatedScale scale) {
   if (!isRatio(quantity) || scale == StatedScale::Unity) {
     return 1;
   }
   double most = 0;
   std::size_t mostRow = 0;
-  for (const std::vector<double>& column : rows.columns) {
-    const auto highest = std::max_element(column.begin(), column.end());
-    if (*highest > most) {
-      most = *highest;
-      mostRow = static_cast<std::size_t>(highest - column.begin());
+  for (const UsableCurve& curve : curves) {
+    for (std::size_t i = curve.firstUsed; i <= curve.lastUsed; ++i) {
+      if (curve.values[i] > most) {
+        most = curve.values[i];
+        mostRow = curve.rows[i];
+      }
     }
   }
   if (most > kHighestPercent) {
@@ -110,23 +114,23 @@ double requiredNumber(std::string_view token, const std::string& where, const st
 }
 
 std::vector<Spectrum> spectraFromRows(SampledRows rows, SpectralQuantity quantity, StatedScale scale) {
-  const bool falling = checkedFalling(rows);
-  checkNonNegative(rows, quantity);
-  const double divisor = checkedDivisor(rows, quantity, scale);
-  if (falling) {
-    std::reverse(rows.wavelengthsNm.begin(), rows.wavelengthsNm.end());
+  if (checkedFalling(rows)) {
+    turnRound(rows);
   }
-  std::vector<Spectrum> spectra;
-  spectra.reserve(rows.columns.size());
+  std::vector<UsableCurve> curves;
+  curves.reserve(rows.columns.size());
   for (std::size_t c = 0; c < rows.columns.size(); ++c) {
-    std::vector<double>& values = rows.columns[c];
-    if (falling) {
-      std::reverse(values.begin(), values.end());
-    }
-    for (double& value : values) {
+    curves.push_back(usableCurve(rows, c, quantity));
+  }
+  const double divisor = checkedDivisor(rows, curves, quantity, scale);
+  std::vector<Spectrum> spectra;
+  spectra.reserve(curves.size());
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    for (double& value : curves[c].values) {
       value /= divisor;
     }
-    spectra.emplace_back(rows.names[c], quantity, rows.wavelengthsNm, std::move(values));
+    spectra.push_back(Spectrum(rows.names[c], quantity, std::move(curves[c].wavelengthsNm), std::move(curves[c].values))
+                          .withNotes(std::move(curves[c].notes)));
   }
   return spectra;
 }

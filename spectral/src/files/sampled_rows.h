@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "metamer/spectral/spectrum.h"
@@ -23,15 +25,20 @@ struct SampledRows {
   std::vector<double> wavelengthsNm;                     ///< one a row
   std::vector<std::vector<double>> columns;              ///< columns[c][row]
   std::function<std::string(std::size_t row)> rowWhere;  ///< what messages call a row, "gel.csv:12"
+  /// What stands where columns[c][row] is NaN, by row and column: text that is no number, or nothing.
+  std::map<std::pair<std::size_t, std::size_t>, std::string> flaws = {};
 };
 
 /// Reads a whole token as a finite number.
 /// @throws InputError for anything else, with a remedy for decimal commas, NaN and empty cells
 double requiredNumber(std::string_view token, const std::string& where, const std::string& field);
 
-/// Rows in falling order are turned round; percent becomes 0 ... 1.
+/// Rows in falling order are turned round; percent becomes 0 ... 1. Samples that no use reads, beyond the last one at
+/// or outside either end of the visible domain, are not judged: they go where they are no numbers, and become 0 where
+/// they are negative. Within, noise below zero (to 5 % of the peak) becomes 0 with a note; an empty cell at an end of a
+/// sensitivity ends it; a light many of whose values are exactly 0 gets a note.
 /// @throws InputError: no rows, a duplicate wavelength, an order that changes, no row within the visible domain,
-///   a negative value where the quantity allows none, an unclear scale
+///   a value that is no number, a negative value where the quantity allows none, an unclear scale
 std::vector<Spectrum> spectraFromRows(SampledRows rows, SpectralQuantity quantity, StatedScale scale);
 
 /// Name of spectra in a file that names none: the file's, without folder and extension.

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -12,6 +14,60 @@
 #include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
+namespace {
+
+constexpr std::array<std::string_view, 9> kTables{".csv", ".txt", ".tsv", ".asc", ".xls",
+                                                  ".sp",  ".ti3", ".ccss", ".cgats"};
+
+std::string extensionOf(const std::string& file) {
+  return lowerCase(std::filesystem::path(file).extension().string());
+}
+
+bool isTable(const std::string& extension) {
+  return std::find(kTables.begin(), kTables.end(), extension) != kTables.end();
+}
+
+bool isKnown(const std::string& extension) {
+  return isTable(extension) || extension == ".spdx" || extension == ".json";
+}
+
+std::vector<Spectrum> readWholeFile(const std::string& file, SpectralQuantity quantity) {
+  const std::string extension = extensionOf(file);
+  if (!isKnown(extension)) {
+    throw InputError(file, "extension", extension,
+                     "must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), .spdx or .json");
+  }
+  const std::string text = readTextFile(file);
+  return extension == ".spdx"   ? readSpdx(text, file, quantity)
+         : extension == ".json" ? readRawtoacesJson(text, file, quantity)
+                                : readCsv(text, file, quantity);
+}
+
+/// A curve by its name, without regard to case, else by its number.
+Spectrum columnNamed(const std::string& column, const std::vector<Spectrum>& spectra, const std::string& file) {
+  const std::string wanted = lowerCase(trimmed(column));
+  const Spectrum* found = nullptr;
+  for (const Spectrum& spectrum : spectra) {
+    if (lowerCase(spectrum.name()) == wanted) {
+      if (found != nullptr) {
+        throw InputError(file, "column", column, "is the name of several; give the number of one, from 1");
+      }
+      found = &spectrum;
+    }
+  }
+  const std::optional<double> number = parseNumber(wanted);
+  if (found == nullptr && number && *number >= 1 && *number <= static_cast<double>(spectra.size()) &&
+      *number == std::floor(*number)) {
+    found = &spectra[static_cast<std::size_t>(*number) - 1];
+  }
+  if (found == nullptr) {
+    throw InputError(file, "column", column,
+                     "is not there; give a name or a number from 1 of: " + columnsText(spectra));
+  }
+  return *found;
+}
+
+}  // namespace
 
 std::string readTextFile(const std::filesystem::path& file) {
   const std::string where = file.string();
@@ -24,7 +80,7 @@ std::string readTextFile(const std::filesystem::path& file) {
     throw InputError(where, "", "", "is a folder; give a file");
   }
   if (!std::filesystem::is_regular_file(status)) {
-    throw InputError(where, "", "", "cannot be read as a file");
+    throw InputError(where, "", "", "is a device or pipe; give a regular file");
   }
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (!error && size > kLargestFileBytes) {
@@ -40,28 +96,41 @@ std::string readTextFile(const std::filesystem::path& file) {
   return text;
 }
 
+SpectralFileName spectralFileName(const std::string& text) {
+  for (std::size_t colon = text.find(':'); colon != std::string::npos; colon = text.find(':', colon + 1)) {
+    const std::string file = text.substr(0, colon);
+    if (colon + 1 < text.size() && isKnown(extensionOf(file))) {
+      return {file, text.substr(colon + 1)};
+    }
+  }
+  return {text, ""};
+}
+
 bool hasSpectralExtension(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 5> kExtensions{".csv", ".txt", ".tsv", ".spdx", ".json"};
-  return std::find(kExtensions.begin(), kExtensions.end(), lowerCase(file.extension().string())) != kExtensions.end();
+  return isKnown(extensionOf(spectralFileName(file.string()).file));
 }
 
 bool looksLikeSpectralFile(const std::string& nameOrFile) {
   return nameOrFile.find_first_of("/\\") != std::string::npos || hasSpectralExtension(nameOrFile);
 }
 
-std::vector<Spectrum> readSpectralFile(const std::filesystem::path& file, SpectralQuantity quantity) {
-  const std::string extension = lowerCase(file.extension().string());
-  const std::string where = file.string();
-  if (extension == ".csv" || extension == ".txt" || extension == ".tsv") {
-    return readCsv(readTextFile(file), where, quantity);
+std::string columnsText(const std::vector<Spectrum>& spectra) {
+  constexpr std::size_t kMost = 12;
+  std::vector<std::string> names;
+  for (const Spectrum& spectrum : spectra) {
+    if (names.size() == kMost) {
+      names.push_back("... " + std::to_string(spectra.size()) + " in all");
+      break;
+    }
+    names.push_back(shortened(spectrum.name(), 24));
   }
-  if (extension == ".spdx") {
-    return readSpdx(readTextFile(file), where, quantity);
-  }
-  if (extension == ".json") {
-    return readRawtoacesJson(readTextFile(file), where, quantity);
-  }
-  throw InputError(where, "extension", extension, "must be .csv, .txt, .tsv, .spdx or .json");
+  return joined(names);
+}
+
+std::vector<Spectrum> readSpectralFile(const std::filesystem::path& fileOrColumn, SpectralQuantity quantity) {
+  const auto [where, column] = spectralFileName(fileOrColumn.string());
+  std::vector<Spectrum> spectra = readWholeFile(where, quantity);
+  return column.empty() ? spectra : std::vector<Spectrum>{columnNamed(column, spectra, where)};
 }
 
 }  // namespace metamer::spectral

@@ -39,8 +39,9 @@ Spectrum blackbody(double temperatureK) {
     wavelengths.push_back(nm);
     values.push_back(std::pow(kNormalisedAtNm / nm, 5) * reference / planckExponentialTerm(nm, temperatureK));
   }
-  return {numberText(temperatureK) + " K", SpectralQuantity::SpectralPowerDistribution, std::move(wavelengths),
-          std::move(values)};
+  return Spectrum(numberText(temperatureK) + " K", SpectralQuantity::SpectralPowerDistribution, std::move(wavelengths),
+                  std::move(values))
+      .ofFormula();
 }
 
 Spectrum daylight(double cctK, const std::vector<Spectrum>& basis) {

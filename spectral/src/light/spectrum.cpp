@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_integral.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
@@ -71,6 +72,18 @@ Spectrum::Spectrum(std::string name, SpectralQuantity quantity, std::vector<doub
   checkValues(m_name, m_quantity, m_wavelengthsNm, m_values);
 }
 
+Spectrum Spectrum::withNotes(std::vector<std::string> notes) const {
+  Spectrum noted = *this;
+  noted.m_notes = std::move(notes);
+  return noted;
+}
+
+Spectrum Spectrum::ofFormula() const {
+  Spectrum marked = *this;
+  marked.m_isOfFormula = true;
+  return marked;
+}
+
 SpectralShape Spectrum::shape() const {
   SpectralShape shape{m_wavelengthsNm.front(), m_wavelengthsNm.back(), 0};
   const double interval = (shape.endNm - shape.startNm) / static_cast<double>(m_wavelengthsNm.size() - 1);
@@ -97,6 +110,9 @@ double Spectrum::at(double wavelengthNm) const {
 }
 
 DomainSamples Spectrum::onDomain() const {
+  if (m_quantity == SpectralQuantity::SpectralPowerDistribution) {
+    return lightOnDomain(*this);
+  }
   DomainSamples samples;
   for (int i = 0; i < kDomainSize; ++i) {
     samples[i] = at(kDomainStartNm + i);

@@ -51,6 +51,23 @@ bool eightPlainBytes(const char* bytes) {
   return ((word | (word - kOnes)) & kHighBits) == 0;
 }
 
+/// How many bytes from the start are UTF-8 without a NUL.
+std::size_t plainUtf8Length(std::string_view text) {
+  std::size_t position = 0;
+  while (position < text.size()) {
+    if (text.size() - position >= 8 && eightPlainBytes(text.data() + position)) {
+      position += 8;
+      continue;
+    }
+    const std::size_t length = text[position] == '\0' ? 0 : characterLength(text.substr(position));
+    if (length == 0) {
+      break;
+    }
+    position += length;
+  }
+  return position;
+}
+
 }  // namespace
 
 std::string_view trimmed(std::string_view text) {
@@ -147,6 +164,10 @@ bool isNotFinite(std::string_view token) {
   return lower == "nan" || lower == "inf" || lower == "infinity";
 }
 
+bool isUtf8(std::string_view text) {
+  return plainUtf8Length(text) == text.size();
+}
+
 std::string_view checkedUtf8(std::string_view text, const std::string& where) {
   constexpr std::string_view kRemedy = "save the file as UTF-8";
   const auto startsWith = [&](std::string_view mark) { return text.substr(0, mark.size()) == mark; };
@@ -156,22 +177,10 @@ std::string_view checkedUtf8(std::string_view text, const std::string& where) {
   if (startsWith("\xEF\xBB\xBF")) {
     text.remove_prefix(3);
   }
-  std::size_t position = 0;
-  while (position < text.size()) {
-    if (text.size() - position >= 8 && eightPlainBytes(text.data() + position)) {
-      position += 8;
-      continue;
-    }
-    if (text[position] == '\0') {
-      throw InputError(where, "text encoding", "",
-                       "byte " + std::to_string(position + 1) + " is NUL: UTF-16 or not text; " + std::string(kRemedy));
-    }
-    const std::size_t length = characterLength(text.substr(position));
-    if (length == 0) {
-      throw InputError(where, "text encoding", "",
-                       "byte " + std::to_string(position + 1) + " is not UTF-8 (Latin-1?); " + std::string(kRemedy));
-    }
-    position += length;
+  const std::size_t position = plainUtf8Length(text);
+  if (position < text.size()) {
+    const std::string what = text[position] == '\0' ? " is NUL: UTF-16 or not text; " : " is not UTF-8 (Latin-1?); ";
+    throw InputError(where, "text encoding", "", "byte " + std::to_string(position + 1) + what + std::string(kRemedy));
   }
   return text;
 }

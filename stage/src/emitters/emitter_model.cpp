@@ -43,7 +43,9 @@ Spectrum sampled(const std::string& name, const Shape& shape) {
     wavelengthsNm.push_back(nm);
     values.push_back(shape(static_cast<double>(nm)));
   }
-  return {name, spectral::SpectralQuantity::SpectralPowerDistribution, std::move(wavelengthsNm), std::move(values)};
+  return Spectrum(name, spectral::SpectralQuantity::SpectralPowerDistribution, std::move(wavelengthsNm),
+                  std::move(values))
+      .ofFormula();
 }
 
 /// The numbers behind the first colon of "led:620:18".

@@ -38,10 +38,24 @@ TEST(ColorimetryTest, PerfectReflectorHasUnitLuminance) {
   }
 }
 
-TEST(ColorimetryTest, ResponseIsThePlainSum) {
+TEST(ColorimetryTest, ResponseIsTheIntegralOfALine) {
   const Spectrum line("line", SpectralQuantity::SpectralPowerDistribution, {549, 550, 551}, {0, 2, 0});
   const Observer observer = testLibrary().observer("CIE 1931 2");
-  EXPECT_EQ(response(line, observer), Eigen::Vector3d(observer.onDomain().row(170) * 2));
+  const auto curves = observer.onDomain();
+  // Two triangles between whole nanometres, by hand; rounding of a sum of ten.
+  const Eigen::Vector3d expected = 2 * (curves.row(169) + 4 * curves.row(170) + curves.row(171)) / 6;
+  EXPECT_LT((response(line, observer) - expected).norm(), 1e-14);
+}
+
+TEST(ColorimetryTest, ResponseToAPrintedTableIsThePlainSum) {
+  const Spectrum light = testLibrary().illuminant("FL11");
+  const Observer observer = testLibrary().observer("CIE 1931 2");
+  Eigen::Vector3d expected = Eigen::Vector3d::Zero();
+  for (int i = 0; i < kDomainSize; ++i) {
+    expected += light.at(kDomainStartNm + i) * observer.onDomain().row(i).transpose();
+  }
+  // The same terms in another order.
+  EXPECT_LT((response(light, observer) - expected).norm(), 1e-12 * expected.norm());
 }
 
 TEST(ColorimetryTest, DarkLightIsRefused) {

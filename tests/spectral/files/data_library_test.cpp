@@ -113,7 +113,7 @@ TEST_F(DataLibraryTest, FilesAreRelativeToTheBaseFolder) {
             0U);
   EXPECT_EQ(errorOf([&] { m_library.illuminant("camera.csv", m_folder); }),
             (m_folder / "camera.csv").string() +
-                ": columns '4': must be 2, a wavelength and a value; keep the column to use");
+                ": columns '3': are several curves; name one as FILE:COLUMN, of: R, G, B");
   EXPECT_EQ(errorOf([&] { m_library.observer("gel.csv", m_folder); }),
             (m_folder / "gel.csv").string() + ": columns '2': must be 4, a wavelength and three responses");
 }

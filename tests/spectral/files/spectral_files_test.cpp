@@ -45,16 +45,17 @@ TEST_F(SpectralFilesTest, TheExtensionPicksTheReader) {
   const std::string json =
       R"({"spectral_data": {"index": {"main": ["a"]}, "data": {"main": {"400": [1], "401": [1]}}}})";
   EXPECT_EQ(readSpectralFile(write("a.json", json), kPower).size(), 1U);
-  const std::string other = write("a.xls", "");
+  const std::string other = write("a.pdf", "");
   EXPECT_EQ(errorOf([&] { readSpectralFile(other, kPower); }),
-            other + ": extension '.xls': must be .csv, .txt, .tsv, .spdx or .json");
+            other + ": extension '.pdf': must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), "
+                    ".spdx or .json");
 }
 
 TEST_F(SpectralFilesTest, WhatIsNoFileIsRefused) {
   const std::string missing = (m_folder / "missing.csv").string();
   EXPECT_EQ(errorOf([&] { readSpectralFile(missing, kPower); }), missing + ": no such file");
   EXPECT_EQ(errorOf([&] { readTextFile(m_folder); }), m_folder.string() + ": is a folder; give a file");
-  EXPECT_EQ(errorOf([] { readTextFile("/dev/null"); }), "/dev/null: cannot be read as a file");
+  EXPECT_EQ(errorOf([] { readTextFile("/dev/null"); }), "/dev/null: is a device or pipe; give a regular file");
   const std::string loop = (m_folder / "loop.csv").string();
   fs::create_symlink("loop.csv", loop);
   EXPECT_NE(errorOf([&] { readTextFile(loop); }), "no InputError");

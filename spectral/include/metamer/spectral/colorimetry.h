@@ -8,7 +8,8 @@
 
 namespace metamer::spectral {
 
-/// Response of an observer to a power distribution, unnormalised: the sum over the 1 nm domain of power times curve.
+/// Response of an observer to a power distribution, unnormalised: the integral over 380 ... 780 nm of power times
+/// curve (see seenLight).
 Eigen::Vector3d response(const Spectrum& power, const Observer& observer);
 
 /// Response to a reflectance (or transmittance) under a light, scaled so that the perfect reflector has a second

@@ -28,10 +28,16 @@ struct Provenance {
   std::string licence;  ///< SPDX identifier where there is one
 };
 
+/// What a name is: data/words.json.
+struct NameDescription {
+  std::string text;                ///< a sentence; empty where none is known
+  std::vector<std::string> words;  ///< that people use for it: "sodium", "tungsten", "CTO"
+};
+
 /// The measured tables of data/, read on demand. Immutable and safe to share between threads.
 ///
 /// Names are matched without regard to case. A NAME is looked up in the tables first; text with a path separator or
-/// the extension .csv .txt .tsv .spdx .json is a file, relative to `baseFolder`.
+/// an extension that readSpectralFile takes is a file, relative to `baseFolder`; FILE:COLUMN is one curve of it.
 class DataLibrary {
  public:
   /// Opens a data folder by its manifest.json.
@@ -59,6 +65,12 @@ class DataLibrary {
 
   /// The colours by which certificates judge files.
   std::vector<SetPixel> certificatePixels() const;
+
+  /// What a name of a group ("illuminants", "observers", "filters") is, and words for it.
+  NameDescription description(const std::string& group, const std::string& name) const;
+  /// The names of a group that a text finds: all its words stand in the name, its description or its words, without
+  /// regard to case. In table order.
+  std::vector<std::string> namesFound(const std::string& group, const std::string& text) const;
 
   /// Provenance of a name as the calls above resolve it. `group` is the manifest's ("illuminants", ...).
   Provenance provenance(const std::string& group, const std::string& nameOrFile) const;

@@ -13,29 +13,48 @@ namespace metamer::spectral {
 /// Largest file any reader takes, bytes; larger ones are refused by name and size.
 inline constexpr std::uintmax_t kLargestFileBytes = 64u << 20;
 
-/// Whether a file's extension is one that readSpectralFile takes, in any case of letters.
+/// A file, or one curve of it: "lamps.csv", "lamps.csv:warm", "lamps.csv:2".
+struct SpectralFileName {
+  std::string file;
+  std::string column;  ///< name or number, from 1, of a curve; empty for all
+};
+
+/// Splits at the first colon behind a spectral extension. Any other text is a file as it stands.
+SpectralFileName spectralFileName(const std::string& text);
+
+/// Whether a file's extension is one that readSpectralFile takes, in any case of letters; a column may follow.
 bool hasSpectralExtension(const std::filesystem::path& file);
 
 /// Whether a text given where a name or a file may stand is a file: it has a path separator or such an extension.
 bool looksLikeSpectralFile(const std::string& nameOrFile);
 
-/// Reads the spectra of a file, one a data column, by its extension:
-///   .csv .txt .tsv  wavelength and one or more values a row; see readCsv
-///   .spdx           IES TM-27-14 XML
-///   .json           rawtoaces measurement JSON
+/// Reads the spectra of a file, or the one that FILE:COLUMN names, by its extension:
+///   .csv .txt .tsv .asc .xls (text)  tables as meters and spreadsheets write them; see readCsv
+///   .sp .ti3 .ccss .cgats            CGATS, as Argyll and i1Profiler write it; read under the extensions above as well
+///   .spdx                            IES TM-27-14 XML
+///   .json                            rawtoaces measurement JSON
+/// @param file      FILE or FILE:COLUMN, see SpectralFileName
 /// @param quantity  what the caller asks for; a file that states another quantity is refused
-/// @throws InputError naming the file, the line or field, the value and the remedy
+/// @throws InputError naming the file, the line or field, the value and the remedy; the columns where COLUMN is none
 std::vector<Spectrum> readSpectralFile(const std::filesystem::path& file, SpectralQuantity quantity);
+
+/// The curves' names, for a message: "warm, cool". Long lists are cut.
+std::string columnsText(const std::vector<Spectrum>& spectra);
 
 /// The readers behind it, on text already in memory (`where` is what messages call it).
 ///
-/// CSV: delimiter comma, semicolon, tab or white space (told by the first data row); a decimal comma where the
-/// delimiter is not a comma; UTF-8 byte order mark; lines that start with '#' and a header row are skipped
-/// (the header names the spectra); any interval, irregular too; rows in rising or falling order; wavelengths in nm,
-/// or in micrometres or Angstrom where the header says um or angstrom. Reflectances and transmittances in percent
-/// where the header says '%' or 'percent', or any value exceeds 2 (a value between 1.2 and 2 is refused as unclear).
-/// Refused: no rows, one column, a duplicate wavelength, an order that changes, NaN or infinity,
-/// a negative power, text that is not UTF-8, over one million rows.
+/// Tables: UTF-8, UTF-16 with its mark, or Latin-1. Cells separated by comma, semicolon, tab or white space, as `sep=`
+/// or the first row with a wavelength tells; a decimal comma where commas do not separate. Blank lines and comments (#
+/// ;
+/// // % !) are skipped. Layouts: curves in columns, below a preamble and header rows (names, units), above a summary;
+/// rows that carry a unit or a label ("380nm", "Spectral Data 380[nm]"), of repeated blocks the finest; curves in rows
+/// under a row of wavelengths; CGATS. Any interval, irregular too, in rising or falling order; wavelengths in nm, or in
+/// micrometres or Angstrom where a header or cell says so. Reflectances and transmittances in percent where the header
+/// says '%' or 'percent', or any value exceeds 2 (a value between 1.2 and 2 is refused as unclear).
+/// Samples outside 380 to 780 nm that nothing reads are not judged. Noise below zero, to 5 % of the peak, becomes 0 and
+/// a note; an empty cell ends a sensitivity.
+/// Refused: no rows, one column, a broken row, a duplicate wavelength, an order that changes, what is no number or
+/// below noise within the range, over one million rows.
 std::vector<Spectrum> readCsv(const std::string& text, const std::string& where, SpectralQuantity quantity);
 std::vector<Spectrum> readSpdx(const std::string& text, const std::string& where, SpectralQuantity quantity);
 std::vector<Spectrum> readRawtoacesJson(const std::string& text, const std::string& where, SpectralQuantity quantity);

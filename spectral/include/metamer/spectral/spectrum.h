@@ -22,7 +22,8 @@ struct SpectralShape {
   double intervalNm = 0;  ///< 0 where the sampling is irregular
 };
 
-/// The domain of every integral: 380, 381, ..., 780 nm. An integral is the plain sum over these samples.
+/// The domain of every integral: 380, 381, ..., 780 nm. An integral is a sum over these: of samples of curves and
+/// surfaces, times what each nanometre of a light counts for (spectral_integral.h).
 inline constexpr int kDomainStartNm = 380;
 inline constexpr int kDomainEndNm = 780;
 inline constexpr int kDomainSize = kDomainEndNm - kDomainStartNm + 1;
@@ -45,10 +46,18 @@ class Spectrum {
   const std::vector<double>& values() const { return m_values; }
   SpectralShape shape() const;
 
+  /// What a reader changed, and what its file lacks: for certificates and messages, without the name.
+  const std::vector<std::string>& notes() const { return m_notes; }
+  Spectrum withNotes(std::vector<std::string> notes) const;
+
+  /// Whether the samples are a smooth formula's and no measured table: their sum is its integral.
+  bool isOfFormula() const { return m_isOfFormula; }
+  Spectrum ofFormula() const;
+
   /// Value at one wavelength: linear between samples, outside as SpectralQuantity says.
   double at(double wavelengthNm) const;
 
-  /// Values on the 1 nm integration domain.
+  /// Values on the 1 nm integration domain; of a light, what each nanometre counts for (see lightOnDomain).
   DomainSamples onDomain() const;
 
  private:
@@ -56,6 +65,8 @@ class Spectrum {
   SpectralQuantity m_quantity;
   std::vector<double> m_wavelengthsNm;
   std::vector<double> m_values;
+  std::vector<std::string> m_notes;
+  bool m_isOfFormula = false;
 };
 
 }  // namespace metamer::spectral

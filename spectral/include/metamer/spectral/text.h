@@ -39,6 +39,9 @@ std::optional<double> parseNumber(std::string_view token);
 /// True for "nan", "inf" and "infinity" with or without a sign: a number to other programs, refused here by name.
 bool isNotFinite(std::string_view token);
 
+/// Whether the text is UTF-8 without a NUL.
+bool isUtf8(std::string_view text);
+
 /// The text without a UTF-8 byte order mark.
 /// @throws InputError where it is UTF-16 or UTF-32, holds a NUL, or is not UTF-8
 std::string_view checkedUtf8(std::string_view text, const std::string& where);
