@@ -13,6 +13,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
 #include "overrides.h"
+#include "run.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -119,9 +120,13 @@ void bake(const BakeArguments& arguments) {
   const sip::Recipe recipe = recipeOf(arguments, library);
   const ocio::BakeOptions options = optionsOf(arguments, format);
   if (arguments.toStdout) {
-    std::cout << ocio::bakeText(recipe, library, format.name, options).text;
+    const ocio::BakedText baked = ocio::bakeText(recipe, library, format.name, options);
+    note(baked.certificate.notes);
+    std::cout << baked.text;
   } else {
-    report(ocio::bakeFile(recipe, library, arguments.output, format.name, options));
+    const ocio::Certificate certificate = ocio::bakeFile(recipe, library, arguments.output, format.name, options);
+    note(certificate.notes);
+    report(certificate);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "metamer/ocio/config_writer.h"
 #include "metamer/ocio/log_cube.h"
+#include "run.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -28,6 +29,7 @@ void writeConfig(const ConfigArguments& arguments) {
   options.base = arguments.base;
   const ocio::ConfigReport report = ocio::writeConfig(recipes, library, arguments.output, options);
   for (const ocio::ConfigEntry& entry : report.entries) {
+    note(entry.certificate.notes);
     if (options.tolerance && entry.certificate.error.p99 > *options.tolerance) {
       std::cout << entry.name << ": p99 " << entry.certificate.error.p99
                 << " is beyond the tolerance; a larger --size is needed\n";

@@ -26,7 +26,8 @@ std::string fromWorkingFolder(const std::string& nameOrFile, const std::vector<s
   if (!spectral::looksLikeSpectralFile(nameOrFile) || std::any_of(names.begin(), names.end(), isName)) {
     return nameOrFile;
   }
-  return std::filesystem::absolute(nameOrFile).lexically_normal().string();
+  const auto [file, column] = spectral::spectralFileName(nameOrFile);
+  return std::filesystem::absolute(file).lexically_normal().string() + (column.empty() ? "" : ":" + column);
 }
 
 /// The whole text as a finite number.

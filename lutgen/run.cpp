@@ -19,6 +19,13 @@ int fail(std::string message, int code) {
   return code;
 }
 
+void note(const std::vector<std::string>& notes) {
+  for (std::string text : notes) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::cerr << "lutgen: note: " << text << std::endl;
+  }
+}
+
 int run(int argumentCount, char** arguments, const std::function<void(CLI::App&)>& addCommands) {
   // What OpenColorIO would say comes as an exception as well.
   OCIO_NAMESPACE::SetLoggingLevel(OCIO_NAMESPACE::LOGGING_LEVEL_NONE);

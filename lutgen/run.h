@@ -4,11 +4,15 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace metamer::lutgen {
 
 /// One line on stderr, whatever the text holds. Returns the code.
 int fail(std::string message, int code);
+
+/// A line each on stderr: what a user should know though the work goes on.
+void note(const std::vector<std::string>& notes);
 
 inline constexpr int kFailure = 1;
 

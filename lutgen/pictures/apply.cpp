@@ -11,6 +11,7 @@
 #include "overrides.h"
 #include "picture.h"
 #include "picture_commands.h"
+#include "run.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -51,7 +52,9 @@ PixelFunction fromRecipe(const ApplyOptions& options) {
   const auto library = spectral::DataLibrary::openDefault();
   const sip::Recipe recipe = recipeWith(options.transform, options.overrides, library);
   const ocio::WorkingSpace space = ocio::findWorkingSpace(recipe.space, library, ocio::ConfigSource::environment());
-  const auto transform = std::make_shared<const sip::SpectralTransform>(sip::resolve(recipe, library, space.engine));
+  const sip::TransformSpec spec = sip::resolve(recipe, library, space.engine);
+  note(sip::notesOf(recipe, spec));
+  const auto transform = std::make_shared<const sip::SpectralTransform>(spec);
   if (transform->isIdentity()) {
     return [](std::span<float>) {};
   }

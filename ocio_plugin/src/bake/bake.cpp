@@ -26,6 +26,7 @@ Certificate newCertificate(const sip::Recipe& recipe, const spectral::DataLibrar
   Certificate certificate;
   certificate.recipe = recipe;
   certificate.inputs = certifiedInputs(recipe, library);
+  certificate.notes = sip::notesOf(recipe, prepared.spec);
   certificate.bandCount = prepared.transform.bandCount();
   certificate.gamut = prepared.space.engine.name;
   certificate.diagnostics = prepared.transform.diagnostics();

@@ -182,7 +182,7 @@ std::string Certificate::json() const {
     transform["choice"] = {{"tolerance", choice->tolerance}, {"on", "p99"}, {"tried", tried}};
   }
   const Policy policy = policyOf(*this);
-  const Json document = {
+  Json document = {
       {"metamer_certificate", 1},
       {"tool", {{"name", "metamer"}, {"version", toolVersion()}}},
       {"recipe", recipeJson(recipe)},
@@ -218,6 +218,9 @@ std::string Certificate::json() const {
         {"folds", rounded(folds)}}},
       {"policy",
        {{"negatives", policy.negatives}, {"out_of_range", policy.outOfRange}, {"not_a_number", policy.notANumber}}}};
+  if (!notes.empty()) {
+    document["notes"] = notes;
+  }
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -287,7 +290,7 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
   const auto add = [&](std::string role, const std::string& group, const std::string& name) {
     spectral::Provenance provenance = library.provenance(group, name);
     if (!provenance.file.empty() && provenance.sha256.empty()) {
-      provenance.sha256 = sha256(spectral::readTextFile(recipe.folder / name));
+      provenance.sha256 = sha256(spectral::readTextFile(recipe.folder / provenance.file));
     }
     inputs.push_back({std::move(role), std::move(provenance)});
   };

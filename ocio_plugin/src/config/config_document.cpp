@@ -243,10 +243,16 @@ std::string ConfigDocument::with(const std::string& looks, const std::string& na
                                  const std::string& searchFolder, const std::string& colourSpaces) const {
   const YAML::Node before = parseConfigYaml(m_text, m_where);
   Editor editor(m_text, m_where, before);
-  // First: items of the document's last list go before keys that are new behind it.
-  editor.addItems("colorspaces", colourSpaces);
-  editor.addItems("looks", looks);
-  editor.addItems("named_transforms", namedTransforms);
+  // First the lists that are there: items of the document's last one go before keys that are new behind it.
+  for (const bool isThere : {true, false}) {
+    for (const auto& [key, items] : {std::pair<const char*, const std::string&>{"colorspaces", colourSpaces},
+                                     {"looks", looks},
+                                     {"named_transforms", namedTransforms}}) {
+      if (static_cast<bool>(before[key]) == isThere) {
+        editor.addItems(key, items);
+      }
+    }
+  }
   if (!searchFolder.empty()) {
     editor.addSearchFolder(searchFolder);
   }

@@ -6,6 +6,7 @@
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/missing_file_error.h"
+#include "operators/lut_file.h"
 
 namespace metamer::ocio {
 
@@ -23,6 +24,7 @@ PixelProcessor::PixelProcessor(const OCIO::ConstTransformRcPtr& transform) {
 }
 
 PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
+  refuseEndlessLut(file);
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) {
     throw spectral::MissingFileError(file.string(), "LUT", "", "there is no such file; check the path");
@@ -34,7 +36,9 @@ PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
   try {
     return PixelProcessor(transform);
   } catch (const spectral::InputError& error) {
-    throw spectral::InputError(file.string(), "LUT", "", std::string("cannot be read: ") + error.what());
+    const std::string remedy = remedyOfLut(file);
+    throw spectral::InputError(file.string(), "LUT", "",
+                               "cannot be read: " + (remedy.empty() ? std::string(error.what()) : remedy));
   }
 }
 

@@ -247,4 +247,24 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
   return spec;
 }
 
+std::vector<std::string> notesOf(const Recipe& recipe, const TransformSpec& spec) {
+  std::vector<std::string> notes;
+  const auto add = [&](const std::string& role, const std::string& name, const spectral::Spectrum& spectrum) {
+    const std::filesystem::path path(name);
+    const std::string shown = path.is_absolute() ? path.filename().string() : name;
+    for (const std::string& note : spectrum.notes()) {
+      notes.push_back(role + " " + shown + ": " + note);
+    }
+  };
+  const auto addSide = [&](const std::string& side, const RecipePipeline& named, const Pipeline& pipeline) {
+    add(side + ".illuminant", named.illuminant, pipeline.illuminant);
+    for (std::size_t k = 0; k < named.filters.size(); ++k) {
+      add(side + ".filters[" + std::to_string(k) + "]", named.filters[k].name, pipeline.filters[k].transmittance);
+    }
+  };
+  addSide("input", recipe.input, spec.input);
+  addSide("output", recipe.output, spec.output);
+  return notes;
+}
+
 }  // namespace metamer::sip

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_integral.h"
 
 namespace metamer::sip {
 
@@ -52,19 +53,21 @@ Eigen::Matrix3d solveXyzFromResponse(const spectral::DomainSamples& light,
 PreparedPipeline prepare(const Pipeline& pipeline, const std::vector<spectral::DomainSamples>& training,
                          const spectral::Observer& standardObserver) {
   PreparedPipeline prepared;
-  const spectral::DomainSamples illuminant = pipeline.illuminant.onDomain();
-  prepared.light = illuminant;
+  std::vector<spectral::WeighedFilter> filters;
   for (const auto& filter : pipeline.filters) {
     if (!(filter.density >= 0.0) || !std::isfinite(filter.density)) {
       throw InputError(filter.transmittance.name(), "density", std::to_string(filter.density),
                        "a density is a number from 0 (no filter) up");
     }
-    const spectral::DomainSamples transmittance = filter.transmittance.onDomain();
-    prepared.light.array() *= transmittance.array().max(0.0).pow(filter.density);
+    filters.push_back({filter.transmittance, filter.density});
   }
-  prepared.curves = pipeline.observer.onDomain();
+  const spectral::SeenLight bare = spectral::seenLight(pipeline.illuminant, {}, pipeline.observer);
+  const spectral::SeenLight seen =
+      filters.empty() ? bare : spectral::seenLight(pipeline.illuminant, filters, pipeline.observer);
+  prepared.light = seen.light;
+  prepared.curves = seen.curves;
   const auto kind = pipeline.observer.response;
-  const double unfiltered = level(respond(illuminant, prepared.curves), kind);
+  const double unfiltered = level(respond(bare.light, bare.curves), kind);
   const double filtered = level(respond(prepared.light, prepared.curves), kind);
   if (!(unfiltered > 0.0)) {
     throw InputError(pipeline.illuminant.name(), "illuminant", pipeline.observer.name,

@@ -2,6 +2,7 @@
 #include "transform/sides.h"
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 
 #include "metamer/sip/band_weights.h"
 #include "metamer/spectral/input_error.h"
@@ -17,6 +18,23 @@ namespace {
 constexpr double kDarkChannel = 1e-12;
 /// A cone of a white whose Y is 1 has no light where it is not above this.
 constexpr double kDarkCone = 1e-9;
+/// Curves, each of length 1, whose least singular value is this much smaller than the largest are collinear: files
+/// carry six digits.
+constexpr double kCollinear = 1e-5;
+
+/// Three curves that two would do for, or one, see no colours: no matrix leads from their responses to XYZ.
+void refuseCollinear(const Pipeline& pipeline, const char* field) {
+  Eigen::Matrix<double, spectral::kDomainSize, 3> curves = pipeline.observer.onDomain();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    curves.col(k).normalize();  // a column of zeros stays
+  }
+  const Eigen::Vector3d sizes = curves.jacobiSvd().singularValues();
+  if (!(sizes[2] > kCollinear * sizes[0])) {
+    throw InputError("recipe", field, pipeline.observer.name,
+                     "its three channels are collinear: one is a mixture of the others, so it sees no colours; use the "
+                     "camera's own three curves");
+  }
+}
 
 }  // namespace
 
@@ -27,6 +45,8 @@ Sides prepareSides(const TransformSpec& spec) {
   Sides sides;
   sides.input = prepare(spec.input, spec.training, spec.standardObserver);
   sides.output = prepare(spec.output, spec.training, spec.standardObserver);
+  refuseCollinear(spec.input, "input.observer");
+  refuseCollinear(spec.output, "output.observer");
   const PreparedPipeline& input = sides.input;
   const PreparedPipeline& output = sides.output;
   // A channel without any light has no white to be normalised by: low-pressure sodium leaves an eye's blue one dark.

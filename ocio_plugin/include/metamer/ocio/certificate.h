@@ -35,6 +35,7 @@ struct CertifiedChoice {
 struct Certificate {
   sip::Recipe recipe;
   std::vector<CertifiedInput> inputs;
+  std::vector<std::string> notes;  ///< what reading the inputs changed, and what they lack (sip::notesOf)
   Representation representation = Representation::Identity;
   std::string format;                     ///< OCIO's name of the file format; empty for a transform that is not a file
   std::optional<CertifiedChoice> choice;  ///< where there was a tolerance

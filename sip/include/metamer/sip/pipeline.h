@@ -28,7 +28,7 @@ struct Pipeline {
 /// the channels 1).
 struct PreparedPipeline {
   spectral::DomainSamples light;                           ///< illuminant times filters, scaled
-  Eigen::Matrix<double, spectral::kDomainSize, 3> curves;  ///< observer
+  Eigen::Matrix<double, spectral::kDomainSize, 3> curves;  ///< observer, as this light sees it (spectral::SeenLight)
   Eigen::Vector3d white;                                   ///< response to the perfect reflector
   Eigen::Matrix3d xyzFromResponse;                         ///< scaled so that white has Y = 1
   double filterTransmission = 1.0;                         ///< Y with the filters over Y without

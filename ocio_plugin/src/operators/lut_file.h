@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace metamer::ocio {
+
+/// Refuses what OpenColorIO must not be given: a LUT file that is a device or a pipe, or a .ctf whose references lead
+/// to one, to no file, or back to itself.
+/// @throws spectral::InputError naming the file that holds the reference, and the reference
+void refuseEndlessLut(const std::filesystem::path& file);
+
+/// What to do about a LUT file that OpenColorIO cannot read, where its text tells: a keyword of another program. Empty
+/// where it does not.
+std::string remedyOfLut(const std::filesystem::path& file);
+
+}  // namespace metamer::ocio
