@@ -8,6 +8,10 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <system_error>
+
+#include "metamer/spectral/input_error.h"
+#include "scene_file/ply_check.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -36,6 +40,17 @@ Mesh readMesh(const SceneValue& file, const std::filesystem::path& folder) {
   const std::string extension = path.extension().string();
   if (extension != ".obj" && extension != ".ply") {
     throw file.error("must be an .obj or .ply file");
+  }
+  std::error_code none;
+  if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
+    throw file.error("is a device, pipe or folder; give a mesh file");
+  }
+  if (extension == ".ply" && std::filesystem::exists(path, none)) {
+    try {
+      checkPly(path);
+    } catch (const spectral::InputError& error) {
+      throw file.error("", error.what());
+    }
   }
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);

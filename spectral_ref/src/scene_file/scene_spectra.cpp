@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/optical_constants.h"
 #include "metamer/spectral/spectrum.h"
 
 namespace metamer::spectral_ref {
@@ -23,7 +24,8 @@ SpectralQuantity quantityOf(Use use) {
     case Use::Transmittance:
       return SpectralQuantity::Transmittance;
     case Use::Reflectance:
-    case Use::Index:  // holds its end values, as a reflectance does
+    case Use::Refraction:  // holds its end values, as a reflectance does
+    case Use::Extinction:
       break;
   }
   return SpectralQuantity::Reflectance;
@@ -161,8 +163,11 @@ DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
           return m_library.illuminant(path).onDomain();
         case Use::Transmittance:
           return m_library.filter(path).onDomain();
+        case Use::Refraction:
+          return spectral::readOpticalConstant(path, spectral::OpticalConstant::Refraction).onDomain();
+        case Use::Extinction:
+          return spectral::readOpticalConstant(path, spectral::OpticalConstant::Extinction).onDomain();
         case Use::Reflectance:
-        case Use::Index:
           break;
       }
       return m_library.reflectances(path).samples.front().onDomain();

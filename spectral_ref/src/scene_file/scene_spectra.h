@@ -16,7 +16,8 @@ namespace metamer::spectral_ref {
 /// that.
 class SceneSpectra {
  public:
-  enum class Use { Emission, Reflectance, Transmittance, Index };
+  /// The two parts of a refractive index have a reader of their own (spectral/optical_constants.h).
+  enum class Use { Emission, Reflectance, Transmittance, Refraction, Extinction };
 
   SceneSpectra(const std::optional<SceneValue>& section, Scene& scene, const spectral::DataLibrary& library,
                std::filesystem::path folder);

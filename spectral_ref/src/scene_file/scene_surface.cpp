@@ -76,7 +76,7 @@ RefractiveIndex readIndex(const SceneValue& value, SceneSpectra& spectra, const 
     index.perNm = onCells(coefficients, sellmeier, numbers);
     return index;
   }
-  const auto& samples = scene.spectra[spectra.find(value, Use::Index)];
+  const auto& samples = scene.spectra[spectra.find(value, Use::Refraction)];
   if (!(samples.minCoeff() >= kLowestIndex && samples.maxCoeff() <= kHighestIndex)) {
     throw value.error("must be an index between 1 and 4 from 380 to 780 nm");
   }
@@ -107,8 +107,8 @@ Material readConductor(const SceneValue& value, SceneSpectra& spectra) {
     return material;
   }
   const char* remedy = "is missing; give the index as eta and k, or reflectance (at normal incidence)";
-  material.eta = spectra.find(section.require("eta", remedy), Use::Index);
-  material.absorption = spectra.find(section.require("k", remedy), Use::Index);
+  material.eta = spectra.find(section.require("eta", remedy), Use::Refraction);
+  material.absorption = spectra.find(section.require("k", remedy), Use::Extinction);
   return material;
 }
 
