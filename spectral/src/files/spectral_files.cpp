@@ -16,7 +16,7 @@
 namespace metamer::spectral {
 namespace {
 
-constexpr std::array<std::string_view, 9> kTables{".csv", ".txt", ".tsv", ".asc", ".xls",
+constexpr std::array<std::string_view, 9> kTables{".csv", ".txt", ".tsv",  ".asc",  ".xls",
                                                   ".sp",  ".ti3", ".ccss", ".cgats"};
 
 std::string extensionOf(const std::string& file) {

@@ -111,9 +111,9 @@ TEST_F(DataLibraryTest, FilesAreRelativeToTheBaseFolder) {
   EXPECT_EQ(m_library.reflectances("gel.csv", m_folder).samples.size(), 1U);
   EXPECT_EQ(errorOf([&] { m_library.filter("camera.csv", m_folder); }).rfind((m_folder / "camera.csv").string(), 0),
             0U);
-  EXPECT_EQ(errorOf([&] { m_library.illuminant("camera.csv", m_folder); }),
-            (m_folder / "camera.csv").string() +
-                ": columns '3': are several curves; name one as FILE:COLUMN, of: R, G, B");
+  EXPECT_EQ(
+      errorOf([&] { m_library.illuminant("camera.csv", m_folder); }),
+      (m_folder / "camera.csv").string() + ": columns '3': are several curves; name one as FILE:COLUMN, of: R, G, B");
   EXPECT_EQ(errorOf([&] { m_library.observer("gel.csv", m_folder); }),
             (m_folder / "gel.csv").string() + ": columns '2': must be 4, a wavelength and three responses");
 }

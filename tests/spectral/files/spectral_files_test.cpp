@@ -47,8 +47,9 @@ TEST_F(SpectralFilesTest, TheExtensionPicksTheReader) {
   EXPECT_EQ(readSpectralFile(write("a.json", json), kPower).size(), 1U);
   const std::string other = write("a.pdf", "");
   EXPECT_EQ(errorOf([&] { readSpectralFile(other, kPower); }),
-            other + ": extension '.pdf': must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), "
-                    ".spdx or .json");
+            other +
+                ": extension '.pdf': must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), "
+                ".spdx or .json");
 }
 
 TEST_F(SpectralFilesTest, WhatIsNoFileIsRefused) {

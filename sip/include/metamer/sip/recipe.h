@@ -73,7 +73,8 @@ std::string toYaml(const Recipe& recipe);
 TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library);
 TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library, const spectral::RgbSpace& space);
 
-/// What reading its files changed, and what they lack, a line each: "input.illuminant lamp.csv: 3 values below zero ...".
+/// What reading its files changed, and what they lack, a line each: "input.illuminant lamp.csv: 3 values below zero
+/// ...".
 /// @param spec  of the recipe, resolved
 std::vector<std::string> notesOf(const Recipe& recipe, const TransformSpec& spec);
 
