@@ -24,7 +24,7 @@ constexpr double kCollinear = 1e-5;
 
 /// Three curves that two would do for, or one, see no colours: no matrix leads from their responses to XYZ.
 void refuseCollinear(const Pipeline& pipeline, const char* field) {
-  Eigen::Matrix<double, spectral::kDomainSize, 3> curves = pipeline.observer.onDomain();
+  Eigen::MatrixXd curves = pipeline.observer.onDomain();  // dynamic: too large for the stack
   for (Eigen::Index k = 0; k < 3; ++k) {
     curves.col(k).normalize();  // a column of zeros stays
   }
