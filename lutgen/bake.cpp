@@ -122,10 +122,12 @@ void bake(const BakeArguments& arguments) {
   if (arguments.toStdout) {
     const ocio::BakedText baked = ocio::bakeText(recipe, library, format.name, options);
     note(baked.certificate.notes);
+    note(baked.certificate.warnings());
     std::cout << baked.text;
   } else {
     const ocio::Certificate certificate = ocio::bakeFile(recipe, library, arguments.output, format.name, options);
     note(certificate.notes);
+    note(certificate.warnings());
     report(certificate);
   }
 }

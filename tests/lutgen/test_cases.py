@@ -86,8 +86,8 @@ class Luts(LutgenTest):
     def test_what_the_newest_ocio_reads(self):
         for name in ("smpte.clf", "two.ccc"):
             shutil.copy(LUTS / name, self.folder)
-            self.assertWorks("bake", "--lut", name, "-o", name + ".cube", "--size", "2")
-            first = [line for line in (self.folder / (name + ".cube")).read_text().splitlines() if line[:1].isdigit()][1]
+            self.assertWorks("bake", "--lut", name, "-o", name + ".cube", "--size", "3")
+            first = [line for line in (self.folder / (name + ".cube")).read_text().splitlines() if line[:1].isdigit()][2]
             self.assertEqual([float(word) for word in first.split()], [2, 0, 0], name)
 
     def test_named_transforms_last(self):

@@ -192,6 +192,14 @@ class Bake(LutgenTest):
         self.assertEqual([c["transform"]["nodes"] for c in (fitted, sampled)], ["fitted", "sampled"])
         self.assertLess(fitted["error"]["p99"], sampled["error"]["p99"])
 
+    def test_what_is_large_is_said_at_once(self):
+        run = lutgen("bake", "--illuminant-in", "FL11", "--illuminant-out", "D65", "--adaptation", "1", "--size", "9", "-o",
+                     self.folder / "a.ctf")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stderr, r"note: saturated lights grow up to 3\.\d times as bright against white\n")
+        run = lutgen("bake", "--illuminant-in", "D65", "--illuminant-out", "D50", "-o", self.folder / "b.ctf")
+        self.assertEqual(run.stderr, "")
+
     def test_an_inverse_is_refused_with_what_to_do(self):
         file = self.folder / "back.ctf"
         run = lutgen("bake", "--illuminant-in", "D65", "--illuminant-out", "A", "--inverse", "-o", file)

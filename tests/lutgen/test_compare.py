@@ -41,9 +41,11 @@ class Compare(LutgenTest):
             error = self.compared("night.yaml", name)["error"]
             certificate = json.loads((self.folder / f"{name}.json").read_text())["error"]
             self.assertEqual(error["count"], certificate["count"])
-            for key in ("mean", "p99", "max"):
-                # Both go through floats, the certificate's reference does not.
+            # Both go through floats, the certificate's reference does not.
+            for key in ("mean", "p99"):
                 self.assertAlmostEqual(error[key], certificate[key], delta=2e-3 + 1e-3 * certificate[key], msg=name)
+            # A certificate looks for the largest between the probes as well.
+            self.assertLessEqual(error["max"], 2e-3 + 1.001 * certificate["max"], name)
 
     def test_a_cube_of_another_tool_is_read_by_the_flags(self):
         # A light that a small cube follows well, so that a wrong curve stands out.

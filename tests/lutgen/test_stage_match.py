@@ -60,7 +60,8 @@ class MatchTest(LutgenTest):
             write_spectrum(file, scale * model(text))
         modelled = self.match("--target", "D65", "--emitters", *RGB, "--method", "mrm")
         ours = self.match("--target", "D65", "--emitters", *names, "--method", "mrm")
-        np.testing.assert_allclose(ours["drives"], np.array(modelled["drives"]) / [1.0, 2.0, 0.5], rtol=1e-9)
+        # A file is straight lines between its nanometres, a model is summed at them.
+        np.testing.assert_allclose(ours["drives"], np.array(modelled["drives"]) / [1.0, 2.0, 0.5], rtol=5e-4)
         self.assertEqual(modelled["models"], [True] * 3)
         self.assertEqual(ours["models"], [False] * 3)
 
@@ -156,7 +157,8 @@ class MatchTest(LutgenTest):
         write_spectrum(self.folder / "mixed.csv", mixed)
         arguments = ["--emitters", *SETS["RGBW"], "--method", "mrm", "--weights", "perceptual"]
         ours = self.match("--target", self.folder / "mixed.csv", *arguments)
-        np.testing.assert_allclose(ours["drives"], [1, 0.5, 0.25, 0], atol=1e-9)
+        # A file is straight lines between its nanometres, a model is summed at them.
+        np.testing.assert_allclose(ours["drives"], [1, 0.5, 0.25, 0], atol=5e-4)
         bound = 0.4
         limited = self.match("--target", self.folder / "mixed.csv", *arguments, "--limits", bound)
         absolute = self.match("--target", self.folder / "mixed.csv", *arguments[:-2], "--limits", bound)

@@ -84,8 +84,9 @@ class Fixture(unittest.TestCase):
                                 ("mrm", "perceptual")):
             with self.subTest(method=method, weights=weights):
                 found = stage.match(mixed, EMITTERS, method=method, weights=weights)
-                np.testing.assert_allclose(found.drives, drives, rtol=1e-6)
-                self.assertLess(found.relative_residual, 1e-6)
+                # A spectrum is straight lines between its nanometres, a model is summed at them.
+                np.testing.assert_allclose(found.drives, drives, rtol=5e-3)
+                self.assertLess(found.relative_residual, 5e-3)
 
     def test_names_and_models(self):
         found = stage.match("D65", ["led:628:14", "led:525:24", "led:460:14", "A"], observer="Nikon D5100",

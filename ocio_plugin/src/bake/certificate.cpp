@@ -113,7 +113,7 @@ Json pixelsJson(const PixelProtocol::Report& pixels) {
 
 /// Beyond these a certificate says so in a sentence: luminance, over white's; distance, of a pixel's own size.
 constexpr double kBright = 3.0;
-constexpr double kFar = 1.0;
+constexpr double kFar = 2.0;
 
 }  // namespace
 

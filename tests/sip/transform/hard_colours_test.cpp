@@ -26,7 +26,7 @@ TEST(SpectralTransformTest, ALaserIsFinite) {
   for (const Vector3d& colour : colours(200)) {
     ASSERT_TRUE(transform.apply(colour).allFinite()) << colour.transpose();
   }
-  // To a laser every colour has the laser's hue, where nothing is limited.
+  // To a laser every colour has the laser's hue, where nothing is limited: but for the nanometre that its line is wide.
   std::swap(spec.input, spec.output);
   const SpectralTransform toLaser(spec, 81);
   const Vector3d white = toLaser.apply(Vector3d::Ones());
@@ -36,7 +36,7 @@ TEST(SpectralTransformTest, ALaserIsFinite) {
     ASSERT_TRUE(result.allFinite()) << colour.transpose();
     if (!toLaser.linearise(colour).isLimited) {
       ++whole;
-      EXPECT_LE(result.cross(white).norm(), 1e-9 * result.norm() * white.norm()) << colour.transpose();
+      EXPECT_LE(result.cross(white).norm(), 2e-4 * result.norm() * white.norm()) << colour.transpose();
     }
   }
   EXPECT_GT(whole, 20);
