@@ -8,6 +8,7 @@
 
 #include "metamer/spectral/chromatic_adaptation.h"
 #include "metamer/spectral/rgb_space.h"
+#include "operators/ap1.h"
 #include "operators/parallel.h"
 
 namespace metamer::ocio {
@@ -22,9 +23,9 @@ constexpr const char* kSaturated = "saturated light";
 
 const Eigen::Vector2d kD65(0.3127, 0.3290);
 
-/// ACEScg, in which the pixels are kept (S-2014-004).
+/// ACEScg, in which the pixels are kept.
 spectral::RgbSpace acesCg() {
-  return {"ACEScg", {{{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}}}, {0.32168, 0.33767}};
+  return {"ACEScg", ap1Primaries(), {0.32168, 0.33767}};
 }
 
 /// An sRGB display's primaries (IEC 61966-2-1).

@@ -3,6 +3,8 @@
 
 #include <Eigen/LU>
 
+#include "operators/ap1.h"
+
 namespace metamer::ocio {
 namespace {
 
@@ -29,8 +31,8 @@ Eigen::Matrix3d castOf(const sip::TransformSpec& spec, const sip::SpectralTransf
 }  // namespace
 
 ChainFrame chainFrame(const sip::TransformSpec& spec, const sip::SpectralTransform& transform) {
-  // AP1's primaries (S-2014-004), whose triangle holds nearly all that is seen, whatever the working space.
-  const spectral::RgbSpace wide{"", {{{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}}}, spec.space.white};
+  // Whatever the working space.
+  const spectral::RgbSpace wide{"", ap1Primaries(), spec.space.white};
   const Eigen::Matrix3d wideFromRgb = wide.rgbFromXyz() * spec.space.xyzFromRgb();
   return {withMean(kInputMean) * wideFromRgb, withMean(kOutputMean) * wideFromRgb * castOf(spec, transform).inverse()};
 }

@@ -107,8 +107,8 @@ std::string remedyOfLut(const fs::path& file) {
   constexpr const char* kVideo =
       "marks a LUT of DaVinci Resolve for video-range signals (64 to 940 of 1023), which no other reader takes; export "
       "it again for full range, or scale the signals and remove the line";
+  const std::string text = startOf(file);
   for (const Keyword& keyword : {Keyword{"LUT_IN_VIDEO_RANGE", kVideo}, Keyword{"LUT_OUT_VIDEO_RANGE", kVideo}}) {
-    const std::string text = startOf(file);
     const std::size_t at = text.find(keyword.name);
     if (at != std::string::npos) {
       const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');

@@ -40,11 +40,19 @@ ErrorProtocol::Options checked(const ErrorProtocol::Options& options) {
   return options;
 }
 
+std::string atStop(const std::string& probe, int stop) {
+  return probe + " at " + (stop >= 0 ? "+" : "") + std::to_string(stop) + " stops";
+}
+
 }  // namespace
 
 ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectral::Spectrum>& chart,
                              const Options& options)
-    : m_options(checked(options)), m_converged(spec, kConvergedBandCount), m_locus(spec.standardObserver) {
+    : m_options(checked(options)),
+      m_converged(spec, kConvergedBandCount),
+      m_locus(spec.standardObserver),
+      m_xyzFromRgb(spec.space.xyzFromRgb()),
+      m_white(m_converged.whiteXyz()) {
   const Eigen::Matrix3d rgbFromXyz = spec.space.rgbFromXyz();
   const Eigen::Vector2d white = spectral::chromaticity(spec.space.whiteXyz());
   const auto add = [&](std::string name, const Eigen::Vector3d& rgb) {
@@ -99,7 +107,12 @@ ErrorProtocol::Report ErrorProtocol::measureAgainst(const SpectralTransform& ref
 }
 
 Eigen::Vector3d ErrorProtocol::labOf(const Eigen::Vector3d& rgb) const {
-  return spectral::lab(m_converged.space().xyzFromRgb() * rgb, m_converged.whiteXyz());
+  return spectral::lab(m_xyzFromRgb * rgb, m_white);
+}
+
+double ErrorProtocol::errorOf(const Eigen::Vector3d& expectedLab, const Eigen::Vector3d& result) const {
+  const double error = spectral::deltaE2000(expectedLab, labOf(result));
+  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
 ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<float> rgba)>& candidate) const {
@@ -110,11 +123,11 @@ ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<f
   const std::size_t count = std::min(kSearched, order.size());
   std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
                     [&](std::size_t a, std::size_t b) { return peaks[a].error > peaks[b].error; });
-  const Eigen::Matrix3d xyzFromRgb = m_converged.space().xyzFromRgb();
+  const Eigen::Matrix3d rgbFromXyz = m_xyzFromRgb.inverse();
   for (std::size_t k = 0; k < count; ++k) {
     const auto [found, stop] = peaks[order[k]];
     const double exposure = std::ldexp(1.0, stop);
-    const Eigen::Vector3d start = xyzFromRgb * m_probes[order[k]].rgb;
+    const Eigen::Vector3d start = m_xyzFromRgb * m_probes[order[k]].rgb;
     Eigen::Vector2d best = spectral::chromaticity(start);
     double most = found;
     for (double step = kLongestStep; step >= kShortestStep; step *= 0.5) {
@@ -125,7 +138,7 @@ ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<f
         if (!(xy.y() > 0.0) || !m_locus.contains(xy)) {
           continue;
         }
-        const Eigen::Vector3d rgb = xyzFromRgb.inverse() * spectral::xyzFromChromaticity(xy, start.y());
+        const Eigen::Vector3d rgb = rgbFromXyz * spectral::xyzFromChromaticity(xy, start.y());
         if (m_options.insideGamutOnly && rgb.minCoeff() < 0.0) {
           continue;
         }
@@ -133,15 +146,14 @@ ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<f
         Eigen::Map<Eigen::Vector4f>(pixel.data()) << (exposure * rgb).cast<float>(), 1.0F;
         candidate(pixel);
         const Eigen::Vector3d result = Eigen::Map<const Eigen::Vector3f>(pixel.data()).cast<double>() / exposure;
-        const double error = spectral::deltaE2000(labOf(m_converged.apply(rgb)), labOf(result));
+        const double error = errorOf(labOf(m_converged.apply(rgb)), result);
         if (error > most) {
           most = error;
           best = xy;
         }
         if (error > report.max) {
           report.max = error;
-          report.worstProbe =
-              label("near xy", xy.x(), xy.y()) + " at " + (stop >= 0 ? "+" : "") + std::to_string(stop) + " stops";
+          report.worstProbe = atStop(label("near xy", xy.x(), xy.y()), stop);
           report.worstRgb = exposure * rgb;
         }
       }
@@ -169,13 +181,10 @@ ErrorProtocol::Report ErrorProtocol::compare(const std::vector<Eigen::Vector3d>&
     candidate(pixels);
     for (std::size_t i = 0; i < m_probes.size(); ++i) {
       const Eigen::Vector3d result = Eigen::Map<const Eigen::Vector3f>(pixels.data() + 4 * i).cast<double>() / exposure;
-      double error = spectral::deltaE2000(expected[i], labOf(result));
-      if (!std::isfinite(error)) {
-        error = std::numeric_limits<double>::infinity();
-      }
+      const double error = errorOf(expected[i], result);
       if (errors.empty() || error > report.max) {
         report.max = error;
-        report.worstProbe = m_probes[i].name + " at " + (stop >= 0 ? "+" : "") + std::to_string(stop) + " stops";
+        report.worstProbe = atStop(m_probes[i].name, stop);
         report.worstRgb = exposure * m_probes[i].rgb;
       }
       if (peaks != nullptr && error > (*peaks)[i].error) {

@@ -72,10 +72,14 @@ class ErrorProtocol {
   Report compare(const std::vector<Eigen::Vector3d>& expected,
                  const std::function<void(std::span<float> rgba)>& candidate, std::vector<Peak>* peaks = nullptr) const;
   Eigen::Vector3d labOf(const Eigen::Vector3d& rgb) const;
+  /// CIEDE2000 of a result; infinite where it is no number.
+  double errorOf(const Eigen::Vector3d& expectedLab, const Eigen::Vector3d& result) const;
 
   Options m_options;
   SpectralTransform m_converged;
   SpectralLocus m_locus;
+  Eigen::Matrix3d m_xyzFromRgb;
+  Eigen::Vector3d m_white;
   std::vector<Probe> m_probes;
   std::vector<Eigen::Vector3d> m_expected;  // of the converged engine at stop 0
 };
