@@ -35,6 +35,9 @@ void writeConfig(const ConfigArguments& arguments) {
                 << " is beyond the tolerance; a larger --size is needed\n";
     }
   }
+  for (const std::string& unused : report.unused) {
+    note({unused + " is read by no look of " + arguments.output + " any more"});
+  }
   if (!report.isLoaded) {
     std::cout << arguments.output << ": profile " << report.majorVersion << '.' << report.minorVersion
               << " is later than OpenColorIO " << OCIO_NAMESPACE::GetVersion()
@@ -54,6 +57,8 @@ void addConfig(CLI::App& application) {
                    "Config to write; its LUT files, and a certificate a recipe, go into a folder beside it")
       ->required();
   command->add_option("--base", arguments->base, "Config to add to; every byte of it is kept. A new config without");
+  command->add_flag("--replace", arguments->options.replaces,
+                    "Renew looks that are there already, each in its place; without --base, of the config to write");
   command->add_option("--lut-folder", arguments->options.lutFolder, "Name of the folder; luts by default");
   command->add_option("--name", arguments->options.name, "Name of a new config; the file's by default");
   command->add_option("--description", arguments->options.description, "Description of a new config");

@@ -5,11 +5,17 @@
 
 #include "config/config_facts.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
 namespace {
 
 using spectral::InputError;
+
+std::string nameOf(const YAML::Node& item) {
+  const YAML::Node name = item.IsMap() ? item["name"] : YAML::Node();
+  return name && name.IsScalar() ? spectral::lowerCase(name.Scalar()) : std::string();
+}
 
 /// With their line ends.
 std::vector<std::string> splitLines(const std::string& text) {
@@ -26,6 +32,53 @@ bool isBlank(const std::string& line) {
   return line.find_first_not_of(" \t\r\n") == std::string::npos;
 }
 
+/// A block sequence that begins in column 0, an item each.
+std::vector<std::string> splitItems(const std::string& items) {
+  std::vector<std::string> result;
+  for (const std::string& line : splitLines(items)) {
+    if (line.rfind("- ", 0) == 0) {
+      result.emplace_back();
+    }
+    if (!result.empty()) {
+      result.back() += line;
+    }
+  }
+  for (std::string& item : result) {
+    item.erase(item.find_last_not_of('\n') + 1);
+    item += '\n';
+  }
+  return result;
+}
+
+void setFlowStyle(YAML::Node node) {
+  if (node.IsScalar() || node.IsNull()) {
+    return;
+  }
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  for (auto member : node) {
+    setFlowStyle(node.IsMap() ? YAML::Node(member.second) : YAML::Node(member));
+  }
+}
+
+/// An item of a block sequence as it stands between brackets, on one line.
+std::string inBrackets(const std::string& item) {
+  const YAML::Node node = YAML::Load(item)[0];
+  setFlowStyle(node);
+  YAML::Emitter yaml;
+  yaml << node;
+  return yaml.c_str();
+}
+
+/// Where an item of a list stands that has the name of a new one; nothing for the others.
+std::optional<std::size_t> placeOfName(const YAML::Node& list, const YAML::Node& item) {
+  for (std::size_t k = 0; list && list.IsSequence() && k < list.size(); ++k) {
+    if (!nameOf(item).empty() && nameOf(list[k]) == nameOf(item)) {
+      return k;
+    }
+  }
+  return std::nullopt;
+}
+
 /// Changes lines of a config. Its parts are where the parser says they are, in lines of the text as it came.
 class Editor {
  public:
@@ -39,6 +92,30 @@ class Editor {
       m_keys.emplace_back(member.first.Scalar(), static_cast<std::size_t>(member.first.Mark().line));
       m_indent = static_cast<std::size_t>(member.first.Mark().column);
     }
+  }
+
+  /// Puts the items of a block sequence in the place of those that have their names.
+  /// @return the others
+  std::string replaceItems(const std::string& key, const std::string& items) {
+    const YAML::Node list = m_root[key];
+    std::string others;
+    for (const std::string& text : splitItems(items)) {
+      const auto place = placeOfName(list, YAML::Load(text)[0]);
+      if (!place) {
+        others += (others.empty() ? "" : "\n") + text;
+        continue;
+      }
+      const std::size_t line = lineOf(key);
+      if (list.Style() == YAML::EmitterStyle::Flow) {
+        throw InputError(placeOf(line), key, "", "is no list with an item a line; write it as OCIO does");
+      }
+      const std::size_t column = dashColumn(list, line, key);
+      const std::size_t begin = dashLine(list[*place], line, column);
+      const std::size_t next = *place + 1 < list.size() ? dashLine(list[*place + 1], line, column) : sectionEnd(line);
+      m_replaced[begin] = behindItem(begin, next, column);
+      insert(begin, "", text, column);
+    }
+    return others;
   }
 
   /// Adds a block sequence to that of a key, at its end; with the key, at the document's end, where it has none.
@@ -57,6 +134,8 @@ class Editor {
       insert(line + 1, "", items, m_indent + 2);
     } else if (value.IsSequence() && value.Style() != YAML::EmitterStyle::Flow) {
       insert(sectionEnd(line), "\n", items, dashColumn(value, line, key));
+    } else if (value.IsSequence()) {
+      addInBrackets(line, key, items);
     } else {
       throw InputError(placeOf(line), key, "", "is no list with an item a line; write it as OCIO does");
     }
@@ -96,11 +175,15 @@ class Editor {
 
   std::string text() const {
     std::string all;
+    std::size_t kept = 0;
     for (std::size_t line = 0; line <= m_lines.size(); ++line) {
       if (const auto found = m_insertions.find(line); found != m_insertions.end()) {
         all += !all.empty() && all.back() != '\n' ? m_lineEnd + found->second : found->second;
       }
-      if (line < m_lines.size()) {
+      if (const auto found = m_replaced.find(line); found != m_replaced.end()) {
+        kept = found->second;
+      }
+      if (line < m_lines.size() && line >= kept) {
         all += m_lines[line];
       }
     }
@@ -108,6 +191,23 @@ class Editor {
   }
 
  private:
+  /// Adds items before the bracket that ends a list.
+  void addInBrackets(std::size_t keyLine, const std::string& key, const std::string& items) {
+    for (std::size_t line = sectionEnd(keyLine); line-- > keyLine;) {
+      std::string& text = m_lines[line];
+      const std::size_t bracket = text.rfind(']', std::min(text.find(" #"), text.size()));
+      if (bracket != std::string::npos) {
+        std::string added;
+        for (const std::string& item : splitItems(items)) {
+          added += ", " + inBrackets(item);
+        }
+        text.insert(bracket, added);
+        return;
+      }
+    }
+    throw InputError(placeOf(keyLine), key, "", "is no list with an item a line; write it as OCIO does");
+  }
+
   std::string placeOf(std::size_t line) const { return m_where + ":" + std::to_string(line + 1); }
 
   std::size_t lineOf(const std::string& key) const {
@@ -142,6 +242,27 @@ class Editor {
       --end;
     }
     return end;
+  }
+
+  /// First line behind an item, short of what stands between it and the next.
+  std::size_t behindItem(std::size_t begin, std::size_t next, std::size_t column) const {
+    const auto isBetween = [&](const std::string& line) {
+      const std::size_t first = line.find_first_not_of(' ');
+      return isBlank(line) || (first <= column && line[first] == '#');
+    };
+    while (next > begin + 1 && isBetween(m_lines[next - 1])) {
+      --next;
+    }
+    return next;
+  }
+
+  /// The line of an item's dash: the parser marks its tag or its first key.
+  std::size_t dashLine(const YAML::Node& item, std::size_t keyLine, std::size_t column) const {
+    auto line = static_cast<std::size_t>(item.Mark().line);
+    while (line > keyLine + 1 && !(m_lines[line].find_first_not_of(' ') == column && m_lines[line][column] == '-')) {
+      --line;
+    }
+    return line;
   }
 
   std::size_t dashColumn(const YAML::Node& sequence, std::size_t keyLine, const std::string& key) const {
@@ -185,25 +306,35 @@ class Editor {
   std::size_t m_indent = 0;
   std::vector<std::pair<std::string, std::size_t>> m_keys;
   std::map<std::size_t, std::string> m_insertions;
+  std::map<std::size_t, std::size_t> m_replaced;  ///< first line of what gives way to the line behind it
 };
 
-/// Whether `longer` is `shorter` with `count` more items at its end. Nothing counts as an empty list.
-bool isExtended(const YAML::Node& shorter, const YAML::Node& longer, std::size_t count) {
-  const std::size_t kept = shorter && shorter.IsSequence() ? shorter.size() : 0;
-  if (count == 0 || !longer || !longer.IsSequence() || longer.size() != kept + count) {
-    return count == 0 && isSameYaml(shorter, longer);
+/// Whether `after` is the list `before` with the items of a block sequence at its end, those whose names it had in
+/// their places where they replace. Nothing counts as an empty list.
+bool isExtended(const YAML::Node& before, const YAML::Node& after, const YAML::Node& items, bool replaces) {
+  std::vector<YAML::Node> expected;
+  for (std::size_t k = 0; before && before.IsSequence() && k < before.size(); ++k) {
+    expected.push_back(before[k]);
   }
-  for (std::size_t k = 0; k < kept; ++k) {
-    if (!isSameYaml(shorter[k], longer[k])) {
-      return false;
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const YAML::Node item = items[k];
+    const auto place = replaces ? placeOfName(before, item) : std::nullopt;
+    if (place) {
+      expected[*place].reset(item);  // an assignment would change the document
+    } else {
+      expected.push_back(item);
     }
   }
-  return true;
+  bool isSame = after && after.IsSequence() && after.size() == expected.size();
+  for (std::size_t k = 0; isSame && k < expected.size(); ++k) {
+    isSame = isSameYaml(expected[k], after[k]);
+  }
+  return isSame;
 }
 
 /// Whether a document is another but for what was added to it.
-bool isExtension(const YAML::Node& before, const YAML::Node& after, const std::map<std::string, std::size_t>& added,
-                 const std::string& searchFolder) {
+bool isExtension(const YAML::Node& before, const YAML::Node& after, const std::map<std::string, YAML::Node>& added,
+                 const std::string& searchFolder, bool replaces) {
   std::size_t newKeys = !searchFolder.empty() && !before["search_path"] ? 1 : 0;
   auto folders = searchPathOf(before["search_path"]);
   if (!searchFolder.empty()) {
@@ -212,9 +343,9 @@ bool isExtension(const YAML::Node& before, const YAML::Node& after, const std::m
   if (folders != searchPathOf(after["search_path"])) {
     return false;
   }
-  for (const auto& [key, count] : added) {
-    newKeys += count > 0 && !before[key] ? 1 : 0;
-    if (count > 0 && !isExtended(before[key], after[key], count)) {
+  for (const auto& [key, items] : added) {
+    newKeys += items.size() > 0 && !before[key] ? 1 : 0;
+    if (items.size() > 0 && !isExtended(before[key], after[key], items, replaces)) {
       return false;
     }
   }
@@ -224,7 +355,7 @@ bool isExtension(const YAML::Node& before, const YAML::Node& after, const std::m
   for (const auto& member : before) {
     const std::string key = member.first.Scalar();
     const auto found = added.find(key);
-    const bool isAddedTo = key == "search_path" || (found != added.end() && found->second > 0);
+    const bool isAddedTo = key == "search_path" || (found != added.end() && found->second.size() > 0);
     if (!isAddedTo && !isSameYaml(member.second, after[key])) {
       return false;
     }
@@ -240,14 +371,23 @@ ConfigDocument::ConfigDocument(std::string text, std::string where)
       m_facts(readConfigFacts(parseConfigYaml(m_text, m_where), m_where)) {}
 
 std::string ConfigDocument::with(const std::string& looks, const std::string& namedTransforms,
-                                 const std::string& searchFolder, const std::string& colourSpaces) const {
+                                 const std::string& searchFolder, const std::string& colourSpaces,
+                                 bool replaces) const {
   const YAML::Node before = parseConfigYaml(m_text, m_where);
   Editor editor(m_text, m_where, before);
+  std::map<std::string, std::string> lists = {
+      {"colorspaces", colourSpaces}, {"looks", looks}, {"named_transforms", namedTransforms}};
+  const std::map<std::string, YAML::Node> added = {{"colorspaces", YAML::Load(colourSpaces)},
+                                                   {"looks", YAML::Load(looks)},
+                                                   {"named_transforms", YAML::Load(namedTransforms)}};
+  if (replaces) {
+    for (auto& [key, items] : lists) {
+      items = editor.replaceItems(key, items);
+    }
+  }
   // First the lists that are there: items of the document's last one go before keys that are new behind it.
   for (const bool isThere : {true, false}) {
-    for (const auto& [key, items] : {std::pair<const char*, const std::string&>{"colorspaces", colourSpaces},
-                                     {"looks", looks},
-                                     {"named_transforms", namedTransforms}}) {
+    for (const auto& [key, items] : lists) {
       if (static_cast<bool>(before[key]) == isThere) {
         editor.addItems(key, items);
       }
@@ -257,10 +397,7 @@ std::string ConfigDocument::with(const std::string& looks, const std::string& na
     editor.addSearchFolder(searchFolder);
   }
   std::string result = editor.text();
-  const std::map<std::string, std::size_t> added = {{"looks", YAML::Load(looks).size()},
-                                                    {"named_transforms", YAML::Load(namedTransforms).size()},
-                                                    {"colorspaces", YAML::Load(colourSpaces).size()}};
-  if (!isExtension(before, parseConfigYaml(result, m_where), added, searchFolder)) {
+  if (!isExtension(before, parseConfigYaml(result, m_where), added, searchFolder, replaces)) {
     throw InputError(
         m_where, "config", "",
         "is written in a way that cannot be added to without changing it; load and save it with OCIO once");

@@ -70,20 +70,37 @@ void readVersion(const YAML::Node& root, const std::string& where, ConfigFacts& 
 }
 
 /// Every src of a FileTransform, wherever it stands.
-void readFiles(const YAML::Node& node, ConfigFacts& facts) {
+void readFiles(const YAML::Node& node, const std::string& user, ConfigFacts& facts) {
   if (node.IsSequence()) {
     for (const auto& item : node) {
-      readFiles(item, facts);
+      readFiles(item, user, facts);
     }
   } else if (node.IsMap()) {
     if (node.Tag() == "FileTransform") {
       const std::string file = textOf(node, "src");
-      if (!file.empty() && std::find(facts.files.begin(), facts.files.end(), file) == facts.files.end()) {
-        facts.files.push_back(file);
+      if (!file.empty()) {
+        facts.fileUses.push_back({file, user});
+        if (std::find(facts.files.begin(), facts.files.end(), file) == facts.files.end()) {
+          facts.files.push_back(file);
+        }
       }
     }
     for (const auto& member : node) {
-      readFiles(member.second, facts);
+      readFiles(member.second, user, facts);
+    }
+  }
+}
+
+/// The same of a whole config, with the looks and named transforms that read them.
+void readAllFiles(const YAML::Node& root, ConfigFacts& facts) {
+  for (const auto& member : root) {
+    const std::string key = member.first.IsScalar() ? member.first.Scalar() : "";
+    if ((key == "looks" || key == "named_transforms") && member.second.IsSequence()) {
+      for (const auto& item : member.second) {
+        readFiles(item, spectral::lowerCase(textOf(item, "name")), facts);
+      }
+    } else {
+      readFiles(member.second, "", facts);
     }
   }
 }
@@ -161,6 +178,7 @@ ConfigFacts readConfigFacts(const YAML::Node& root, const std::string& where) {
   if (const YAML::Node transforms = root["named_transforms"]; transforms && transforms.IsSequence()) {
     for (const auto& transform : transforms) {
       facts.taken.insert(spectral::lowerCase(textOf(transform, "name")));
+      facts.namedTransforms.insert(spectral::lowerCase(textOf(transform, "name")));
       for (const std::string& alias : listOf(transform, "aliases")) {
         facts.taken.insert(spectral::lowerCase(alias));
       }
@@ -171,7 +189,14 @@ ConfigFacts readConfigFacts(const YAML::Node& root, const std::string& where) {
       facts.looks.insert(spectral::lowerCase(textOf(look, "name")));
     }
   }
-  readFiles(root, facts);
+  if (const YAML::Node environment = root["environment"]; environment && environment.IsMap()) {
+    for (const auto& variable : environment) {
+      if (variable.first.IsScalar() && variable.second.IsScalar()) {
+        facts.environment.emplace(variable.first.Scalar(), variable.second.Scalar());
+      }
+    }
+  }
+  readAllFiles(root, facts);
   return facts;
 }
 

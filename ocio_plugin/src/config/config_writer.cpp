@@ -16,6 +16,8 @@
 #include "config/config_items.h"
 #include "config/config_loader.h"
 #include "config/new_config.h"
+#include "config/used_files.h"
+#include "metamer/ocio/config_source.h"
 #include "metamer/ocio/log_cube.h"
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
@@ -55,31 +57,48 @@ class LutFolder {
 };
 
 /// OCIO takes lists of looks apart at these, and puts variables in for the last.
-void checkNames(const std::vector<sip::Recipe>& recipes, const ConfigFacts& facts, const std::string& where) {
+void checkName(const std::string& name) {
+  const bool hasControl = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; });
+  if (name.empty() || hasControl || name.find_first_of(",:|/\\%$+\"") != std::string::npos || name.front() == '-' ||
+      name.front() == ' ' || name.back() == ' ') {
+    throw InputError("recipe", "name", name,
+                     "cannot be the name of a look: leave out , : | / \\ % $ + \" and a leading -");
+  }
+}
+
+/// @return lower-case names of the looks and named transforms that give way
+std::set<std::string> checkNames(const std::vector<sip::Recipe>& recipes, const ConfigFacts& facts,
+                                 const std::string& where, bool replaces) {
   std::set<std::string> given;
+  std::set<std::string> replaced;
   for (const sip::Recipe& recipe : recipes) {
-    const std::string& name = recipe.name;
-    const bool hasControl = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; });
-    if (name.empty() || hasControl || name.find_first_of(",:|/\\%$+\"") != std::string::npos || name.front() == '-' ||
-        name.front() == ' ' || name.back() == ' ') {
-      throw InputError("recipe", "name", name,
-                       "cannot be the name of a look: leave out , : | / \\ % $ + \" and a leading -");
+    checkName(recipe.name);
+    const std::string look = spectral::lowerCase(recipe.name);
+    const std::string named = spectral::lowerCase(namedTransformName(recipe.name));
+    if (!given.insert(look).second) {
+      throw InputError("recipe", "name", recipe.name, "is the name of another recipe too; give each its own");
     }
-    if (!given.insert(spectral::lowerCase(name)).second) {
-      throw InputError("recipe", "name", name, "is the name of another recipe too; give each its own");
+    if (facts.looks.count(look) != 0 && !replaces) {
+      throw InputError(where, "look", recipe.name,
+                       "is there already; rename the recipe, or renew the look with --replace");
     }
-    if (facts.looks.count(spectral::lowerCase(name)) != 0) {
-      throw InputError(where, "look", name, "is there already; rename the recipe, or take the look out of the base");
+    if (replaces && facts.looks.count(look) != 0) {
+      replaced.insert(look);
+    }
+    if (replaces && facts.namedTransforms.count(named) != 0) {
+      replaced.insert(named);
     }
     // OCIO keeps looks and named transforms apart from each other and from everything that is converted.
-    for (const std::string& taken : {name, namedTransformName(name)}) {
-      if (facts.taken.count(spectral::lowerCase(taken)) != 0 ||
-          (taken != name && facts.looks.count(spectral::lowerCase(taken)) != 0)) {
+    for (const std::string& taken : {recipe.name, namedTransformName(recipe.name)}) {
+      const std::string lower = spectral::lowerCase(taken);
+      if (replaced.count(lower) == 0 &&
+          (facts.taken.count(lower) != 0 || (lower != look && facts.looks.count(lower) != 0))) {
         throw InputError(where, "name", taken,
                          "is that of a colour space, role, look or named transform of the config; rename the recipe");
       }
     }
   }
+  return replaced;
 }
 
 /// A name as that of a file: letters, digits, dot, dash and underscore.
@@ -134,6 +153,64 @@ std::string lightOf(const sip::RecipePipeline& pipeline) {
   return text + ", " + name(pipeline.observer);
 }
 
+/// Where the files of a config go, and what must not give way to them.
+class Places {
+ public:
+  /// @param folders    of the config and of its base
+  /// @param lutFolder  of this config's files
+  Places(const ConfigFacts& facts, const std::vector<fs::path>& folders, fs::path lutFolder,
+         const std::set<std::string>& replaced)
+      : m_lutFolder(std::move(lutFolder)),
+        m_used(facts, folders, replaced),
+        m_remedy(replaced.empty() ? "rename the recipe, or name another --lut-folder"
+                                  : "renew that look too, or name another --lut-folder") {
+    for (const std::string& look : facts.looks) {
+      if (replaced.count(look) == 0 && !look.empty()) {
+        m_used.add(m_lutFolder / (fileName(look) + ".json"), "is the certificate of look '" + look + "'");
+      }
+    }
+  }
+
+  /// A file for a look to write, before it is written.
+  /// @param mark  what metamer's own have in their first bytes
+  std::unique_ptr<spectral::PendingFile> file(const std::string& name, const std::string& look, const char* mark) {
+    const fs::path path = m_lutFolder / name;
+    const auto [own, isNew] = m_looks.emplace(spectral::lowerCase(name), look);
+    if (!isNew) {
+      throw InputError(path.string(), "output", "",
+                       "would hold both '" + own->second + "' and '" + look + "'; rename one of the recipes");
+    }
+    m_used.refuse(path, m_remedy);
+    refuseForeign(path, mark);
+    return std::make_unique<spectral::PendingFile>(path);
+  }
+
+  const UsedFiles& used() const { return m_used; }
+
+ private:
+  fs::path m_lutFolder;
+  UsedFiles m_used;
+  const char* m_remedy;
+  std::map<std::string, std::string> m_looks;  ///< lower-case file name to the look that it is for
+};
+
+/// Files of the LUT folder that replaced looks had read, and that nothing reads now.
+std::vector<std::string> unusedFiles(const ConfigFacts& before, const ConfigFacts& after, const fs::path& folder,
+                                     const std::string& lutFolder, const std::set<std::string>& replaced) {
+  const UsedFiles still(after, {folder}, {});
+  std::vector<std::string> unused;
+  for (const ConfigFile& file : before.fileUses) {
+    const fs::path name = fs::path(file.src).filename();
+    const std::string path = (fs::path(lutFolder) / name).string();
+    std::error_code none;
+    if (replaced.count(file.user) != 0 && fs::is_regular_file(folder / path, none) &&
+        still.userOf(folder / path).empty() && std::find(unused.begin(), unused.end(), path) == unused.end()) {
+      unused.push_back(path);
+    }
+  }
+  return unused;
+}
+
 /// What it does, and how well, in four lines; the certificate says more.
 std::string descriptionOf(const ConfigEntry& entry) {
   const Certificate& certificate = entry.certificate;
@@ -164,20 +241,26 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   if (options.tolerance) {
     spectral::requireAbove("tolerance", *options.tolerance, 0);
   }
+  std::error_code none;
+  const fs::path base = options.base.empty() && options.replaces && fs::exists(file, none) ? file : options.base;
   const ConfigDocument document =
-      options.base.empty() ? ConfigDocument(newConfigText(options.name.empty() ? file.stem().string() : options.name,
-                                                          options.description, options.lutFolder, library),
-                                            file.string())
-                           : openBaseConfig(options.base, file);
+      base.empty() ? ConfigDocument(newConfigText(options.name.empty() ? file.stem().string() : options.name,
+                                                  options.description, options.lutFolder, library),
+                                    file.string())
+                   : openBaseConfig(base, file);
   const ConfigFacts& facts = document.facts();
-  const std::string where = options.base.empty() ? file.string() : options.base.string();
-  checkNames(recipes, facts, where);
+  const std::string where = base.empty() ? file.string() : base.string();
+  const std::set<std::string> replaced = checkNames(recipes, facts, where, options.replaces);
 
   // The places first: what cannot be written is not worth the work.
-  spectral::PendingFile config(file);
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+  const bool hasFolder = !base.empty() && !isBuiltInConfig(base.string());
+  const fs::path baseFolder = hasFolder ? fs::absolute(base).parent_path() : folder;
+  Places places(facts, {folder, baseFolder}, folder / options.lutFolder, replaced);
+  places.used().refuse(file, "name another file for the config");
+  spectral::PendingFile config(file);
   const LutFolder lutFolder(folder / options.lutFolder);
-  if (!options.base.empty()) {
+  if (!base.empty()) {
     checkLoads(document.with("", "", ""), facts, folder, {}, where);
   }
 
@@ -185,18 +268,28 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   ConfigReport report;
   std::vector<ConfigItem> items;
   std::vector<ConfigItem> pendingItems;  // the same with the files' names of now, to be loaded
-  std::vector<std::unique_ptr<spectral::PendingFile>> pending;
-  for (const ConfigCore& core : coresOf(recipes, facts, library, where)) {
+  const std::vector<ConfigCore> cores = coresOf(recipes, facts, library, where);
+  std::map<std::string, std::unique_ptr<spectral::PendingFile>> pending;  // by the name they will have
+  const auto nameOfLut = [](const ConfigCore& core) { return fileName(core.name) + ".ctf"; };
+  const auto nameOfCertificate = [](const CoreUse& use) { return fileName(use.recipe.name) + ".json"; };
+  for (const ConfigCore& core : cores) {
+    pending[nameOfLut(core)] = places.file(nameOfLut(core), core.name, "metamer");
+    refuseShadows(facts, place.prefix + nameOfLut(core), options.lutFolder, file);
+    for (const CoreUse& use : core.uses) {
+      pending[nameOfCertificate(use)] = places.file(nameOfCertificate(use), use.recipe.name, "metamer_certificate");
+    }
+  }
+  std::vector<spectral::PendingFile*> written;
+  for (const ConfigCore& core : cores) {
     const BakedCore baked = bakeCore(core, library, options.size, options.tolerance, lutFolder.path());
-    const std::string lutName = fileName(core.name) + ".ctf";
+    const std::string lutName = nameOfLut(core);
     std::string pendingName;
     fs::path lutPath;
     if (!baked.lutText.empty()) {
-      refuseForeign(lutFolder.path() / lutName, "metamer");
-      refuseShadows(facts, place.prefix + lutName, options.lutFolder, file);
-      pending.push_back(std::make_unique<spectral::PendingFile>(lutFolder.path() / lutName));
-      pending.back()->write(baked.lutText);
-      lutPath = pending.back()->path();
+      spectral::PendingFile& lut = *pending.at(lutName);
+      lut.write(baked.lutText);
+      written.push_back(&lut);
+      lutPath = lut.path();
       pendingName = lutPath.filename().string();
     }
     for (const CoreUse& use : core.uses) {
@@ -223,20 +316,21 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
       }
       pendingItems.push_back(std::move(item));
 
-      const std::string jsonName = fileName(entry.name) + ".json";
-      refuseForeign(lutFolder.path() / jsonName, "metamer_certificate");
-      pending.push_back(std::make_unique<spectral::PendingFile>(lutFolder.path() / jsonName));
-      pending.back()->write(entry.certificate.json());
+      written.push_back(pending.at(nameOfCertificate(use)).get());
+      written.back()->write(entry.certificate.json());
       report.entries.push_back(std::move(entry));
     }
   }
-  const std::string trial =
-      document.with(looksYaml(pendingItems), namedTransformsYaml(pendingItems), place.searchFolder);
-  report.isLoaded = checkLoads(trial, facts, folder, pendingItems, where);
+  const auto textWith = [&](const std::vector<ConfigItem>& some) {
+    return document.with(looksYaml(some), namedTransformsYaml(some), place.searchFolder, "", !replaced.empty());
+  };
+  report.isLoaded = checkLoads(textWith(pendingItems), facts, folder, pendingItems, where);
   report.majorVersion = facts.majorVersion;
   report.minorVersion = facts.minorVersion;
-  config.write(document.with(looksYaml(items), namedTransformsYaml(items), place.searchFolder));
-  for (const auto& one : pending) {
+  const std::string text = textWith(items);
+  config.write(text);
+  report.unused = unusedFiles(facts, ConfigDocument(text, where).facts(), folder, options.lutFolder, replaced);
+  for (spectral::PendingFile* one : written) {
     one->commit();
   }
   config.commit();

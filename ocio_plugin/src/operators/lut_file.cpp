@@ -63,7 +63,8 @@ std::vector<std::string> referencesOf(const fs::path& file) {
   return references;
 }
 
-void follow(const fs::path& file, std::vector<fs::path>& way) {
+/// @param way  from the first file to this one; all files met are added to `met`
+void follow(const fs::path& file, std::vector<fs::path>& way, std::vector<fs::path>& met) {
   std::error_code none;
   way.push_back(fs::weakly_canonical(file, none));
   for (const std::string& reference : isCtf(file) ? referencesOf(file) : std::vector<std::string>{}) {
@@ -82,7 +83,8 @@ void follow(const fs::path& file, std::vector<fs::path>& way) {
       refuse("is one of more than 32 references in a row; put the steps into one file");
     }
     if (fs::exists(target, none)) {
-      follow(target, way);
+      met.push_back(target);
+      follow(target, way, met);
     }
   }
   way.pop_back();
@@ -95,8 +97,14 @@ void refuseEndlessLut(const fs::path& file) {
   if (fs::exists(file, none) && !fs::is_regular_file(file, none)) {
     throw InputError(file.string(), "LUT", "", "is a device, pipe or folder; give a LUT file");
   }
+  filesReferredTo(file);
+}
+
+std::vector<fs::path> filesReferredTo(const fs::path& file) {
   std::vector<fs::path> way;
-  follow(file, way);
+  std::vector<fs::path> met;
+  follow(file, way, met);
+  return met;
 }
 
 std::string remedyOfLut(const fs::path& file) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace metamer::ocio {
 
@@ -10,6 +11,9 @@ namespace metamer::ocio {
 /// to one, to no file, or back to itself.
 /// @throws spectral::InputError naming the file that holds the reference, and the reference
 void refuseEndlessLut(const std::filesystem::path& file);
+
+/// All files that a .ctf or .clf leads to by its references, once it has passed refuseEndlessLut(); of others, none.
+std::vector<std::filesystem::path> filesReferredTo(const std::filesystem::path& file);
 
 /// What to do about a LUT file that OpenColorIO cannot read, where its text tells: a keyword of another program. Empty
 /// where it does not.

@@ -70,6 +70,15 @@ TEST(ConfigDocumentTest, EmptyListsAreFilled) {
   }
 }
 
+TEST(ConfigDocumentTest, ListsInBracketsStayInBrackets) {
+  const std::string head = "ocio_profile_version: 2\n";
+  const std::string ours = "!<Look> {name: ours, process_space: lin, transform: !<MatrixTransform> {}}";
+  EXPECT_EQ(withLooks(head + "looks: [!<Look> {name: theirs, x: [1, 2]}]  # all]\nroles: {}\n"),
+            head + "looks: [!<Look> {name: theirs, x: [1, 2]}, " + ours + "]  # all]\nroles: {}\n");
+  EXPECT_EQ(withLooks(head + "looks: [\n  !<Look> {name: theirs}\n]\n"),
+            head + "looks: [\n  !<Look> {name: theirs}\n, " + ours + "]\n");
+}
+
 TEST(ConfigDocumentTest, IndentAndLineEndsAreTheirs) {
   const std::string result = withLooks("ocio_profile_version: 2\r\nlooks:\r\n- !<Look> {name: theirs}\r\n");
   EXPECT_NE(result.find("\r\n- !<Look>\r\n  name: ours\r\n"), std::string::npos) << result;
@@ -158,8 +167,7 @@ TEST(ConfigDocumentTest, WhatIsNoConfigIsRefused) {
 
 TEST(ConfigDocumentTest, WhatCannotBeAddedToIsRefused) {
   const auto error = [](const std::string& text) { return errorOf([&] { withLooks(text, "luts"); }); };
-  EXPECT_NE(error("ocio_profile_version: 2\nlooks: [!<Look> {name: theirs}]\n").find("base:2: looks"),
-            std::string::npos);
+  EXPECT_NE(error("ocio_profile_version: 2\nlooks: {theirs: x}\n").find("base:2: looks"), std::string::npos);
   EXPECT_NE(error("{ocio_profile_version: 2}").find("written in braces"), std::string::npos);
   EXPECT_NE(error("ocio_profile_version: 2\nsearch_path:\n  a\nlooks:\n").find("base:2: search_path"),
             std::string::npos);

@@ -14,7 +14,10 @@
 namespace metamer::ocio {
 
 struct ConfigOptions {
-  std::filesystem::path base;      ///< config to add to; empty: a new one
+  std::filesystem::path base;  ///< config to add to; empty: a new one
+  /// Whether looks of the base that have a recipe's name are made anew, with their named transforms and files, in their
+  /// places. Without a base, `file` is the base where it is there.
+  bool replaces = false;
   std::string lutFolder = "luts";  ///< beside the config, one name
   std::string name;                ///< of a new config; empty: the file's stem
   std::string description;         ///< of a new config
@@ -42,13 +45,15 @@ struct ConfigReport {
   bool isLoaded = false;
   int majorVersion = 0;  ///< profile of the result
   int minorVersion = 0;
+  std::vector<std::string> unused;  ///< files that replaced looks had and no transform reads any more
 };
 
 /// Writes a config with a look and a named transform a recipe, their LUT files (.ctf, the exposure-invariant chain) and
 /// a certificate beside each, `LUTFOLDER/NAME.json`. All files appear or none.
 ///
 /// A new config has OCIO profile 2.1. A base keeps its text byte for byte: looks and named transforms are added at the
-/// end of their lists, and the LUT folder at the end of its search path. A look works in the linear
+/// end of their lists, and the LUT folder at the end of its search path. No file that the base reads is written over,
+/// but for those of replaced looks alone. A look works in the linear
 /// part of its recipe's space where the config has it, else in the space of the role aces_interchange. Recipes that
 /// differ in nothing but adaptation share a LUT file: what follows it is then one matrix.
 /// @throws spectral::InputError: the base is not there, no config, of profile 1, lacks aces_interchange, names files
