@@ -6,6 +6,7 @@
 
 #include "metamer/sip/error_protocol.h"
 #include "metamer/sip/homogeneous_map.h"
+#include "metamer/sip/recipe.h"
 #include "metamer/sip/smoothest_spectrum.h"
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/data_library.h"
@@ -28,15 +29,14 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 /// Transform from one light of data/ to another in ACEScg, its map and its probes. Free with metamerClose.
-extern "C" void* metamerOpen(const char* input, const char* output) {
+/// @param scene  "natural" or "smooth"
+extern "C" void* metamerOpen(const char* input, const char* output, const char* scene) {
   const auto library = spectral::DataLibrary::openDefault();
-  const auto observer = library.observer("CIE 1931 2");
-  const sip::TransformSpec spec{.space = library.colourSpace("ACEScg").linear,
-                                .input = {library.illuminant(input), {}, observer},
-                                .output = {library.illuminant(output), {}, observer},
-                                .scene = {},
-                                .training = {},
-                                .standardObserver = observer};
+  sip::Recipe recipe;
+  recipe.input.illuminant = input;
+  recipe.output.illuminant = output;
+  recipe.scene.kind = sip::sceneKindFromName(scene);
+  const sip::TransformSpec spec = sip::resolve(recipe, library);
   auto session = std::make_unique<Session>();
   session->exact = std::make_unique<sip::SpectralTransform>(spec);
   const auto start = std::chrono::steady_clock::now();

@@ -22,7 +22,7 @@ class Door:
     def __init__(self, path):
         self.library = ctypes.CDLL(str(path))
         signatures = {
-            "metamerOpen": (_HANDLE, [_TEXT, _TEXT]), "metamerClose": (None, [_HANDLE]),
+            "metamerOpen": (_HANDLE, [_TEXT, _TEXT, _TEXT]), "metamerClose": (None, [_HANDLE]),
             "metamerBuildSeconds": (_DOUBLE, [_HANDLE]), "metamerProbes": (_SIZE, [_HANDLE, _HANDLE]),
             "metamerMap": (None, [_HANDLE, _HANDLE, _HANDLE, _SIZE]),
             "metamerCopy": (None, [_HANDLE, _HANDLE, _SIZE]),
@@ -48,8 +48,8 @@ class Door:
             function = getattr(self.library, name)
             function.restype, function.argtypes = result, arguments
 
-    def open(self, source, destination):
-        return self.library.metamerOpen(source.encode(), destination.encode())
+    def open(self, source, destination, scene="smooth"):
+        return self.library.metamerOpen(source.encode(), destination.encode(), scene.encode())
 
     def close(self, handle):
         self.library.metamerClose(handle)

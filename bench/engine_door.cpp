@@ -54,6 +54,25 @@ std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
     return {};
   }
   const std::size_t face = 2 * axis + (p[axis] > T(0) ? 0 : 1);
+  if (face == Map::kFrontFace) {
+    const auto fine = [&](std::size_t k) { return (p[k] / length + T(1)) * T(Map::kFineSide) / T(2); };
+    const auto cellOf = [](T at) { return std::clamp(static_cast<int>(at), 0, Map::kFineSide - 1); };
+    const int column = cellOf(fine(0));
+    const int line = cellOf(fine(1));
+    const auto node = [&](int i, int j) {
+      return map.fine.data() + 4 * ((line + j) * (Map::kFineSide + 1) + column + i);
+    };
+    if (node(0, 0)[3] == 0.0F) {
+      const T u = fine(0) - T(column);
+      const T v = fine(1) - T(line);
+      std::array<T, 3> sum{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        sum[k] = length * ((T(1) - v) * ((T(1) - u) * T(node(0, 0)[k]) + u * T(node(1, 0)[k])) +
+                           v * ((T(1) - u) * T(node(0, 1)[k]) + u * T(node(1, 1)[k])));
+      }
+      return sum;
+    }
+  }
   const int side = 1 << Map::kRootBits[face];
   const int cells = side << Map::kMaximumDepth;
   const auto scaled = [&](std::size_t k) { return (p[k % 3] / length + T(1)) * T(cells) / T(2); };
@@ -213,7 +232,8 @@ extern "C" void metamerMapSize(void* map, double* three) {
   three[0] = seconds;
   three[1] = static_cast<double>(built.patches.size());
   three[2] = static_cast<double>(built.patches.size() * sizeof(built.patches[0]) +
-                                 (built.patchIndex.size() + built.roots.size()) * sizeof(std::uint32_t));
+                                 (built.patchIndex.size() + built.roots.size()) * sizeof(std::uint32_t) +
+                                 built.fine.size() * sizeof(float));
 }
 
 extern "C" void metamerMapApply(void* map, const float* source, float* destination, std::size_t pixels) {

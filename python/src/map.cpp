@@ -9,7 +9,7 @@ namespace {
 
 std::size_t bytesOf(const sip::HomogeneousMap& tables) {
   return tables.patches.size() * sizeof(sip::HomogeneousMap::Patch) +
-         (tables.patchIndex.size() + tables.roots.size()) * sizeof(std::uint32_t);
+         (tables.patchIndex.size() + tables.roots.size()) * sizeof(std::uint32_t) + tables.fine.size() * sizeof(float);
 }
 
 constexpr const char* kCall =
