@@ -20,27 +20,36 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kBlock = static_cast<std::size_t>(WeightedSums::kBlock);
-using Double = hn::CappedTag<double, kBlock / 4>;
+constexpr std::size_t kMostDoubles = static_cast<std::size_t>(WeightedSums::kPadding);
+using Double = hn::CappedTag<double, kMostDoubles>;
 using V = hn::VFromD<Double>;
 
-/// Sums of one block's bands for each set of weights, kBlock numbers a set.
-/// @tparam kTogether  vectors of bands at a time, for each set: their sums do not wait for one another
-/// @param weights     count numbers a set
+/// Spectra and weights as they lie in memory.
+struct Sums {
+  const double* spectra;  ///< a row a spectrum
+  std::size_t bands;      ///< of a row, padded
+  std::size_t count;      ///< of spectra
+  const double* weights;
+  std::size_t weightStride;  ///< from set to set
+  double* sums;              ///< `bands` numbers a set
+};
+
+/// Sums from a band on, with as many vectors of bands at a time as there are registers for: every spectrum is then
+/// loaded once for all sets, and the sums do not wait for one another.
 template <std::size_t kSets, std::size_t kTogether>
-void sumBlock(const double* block, const double* weights, std::size_t count, double* sums) {
+HWY_INLINE void sumFrom(const Sums& job, std::size_t band) {
   const Double d;
   const std::size_t lanes = hn::Lanes(d);
-  for (std::size_t band = 0; band < kBlock; band += kTogether * lanes) {
+  for (; band + kTogether * lanes <= job.bands; band += kTogether * lanes) {
     std::array<std::array<V, kTogether>, kSets> sum;
     for (auto& ofSet : sum) {
       ofSet.fill(hn::Zero(d));
     }
-    const double* row = block + band;
-    for (std::size_t i = 0; i < count; ++i, row += kBlock) {
+    const double* row = job.spectra + band;
+    for (std::size_t i = 0; i < job.count; ++i, row += job.bands) {
       std::array<V, kSets> weight;
       for (std::size_t set = 0; set < kSets; ++set) {
-        weight[set] = hn::Set(d, weights[set * count + i]);
+        weight[set] = hn::Set(d, job.weights[set * job.weightStride + i]);
       }
       for (std::size_t k = 0; k < kTogether; ++k) {
         const V bands = hn::LoadU(d, row + k * lanes);
@@ -51,17 +60,28 @@ void sumBlock(const double* block, const double* weights, std::size_t count, dou
     }
     for (std::size_t set = 0; set < kSets; ++set) {
       for (std::size_t k = 0; k < kTogether; ++k) {
-        hn::StoreU(sum[set][k], d, sums + set * kBlock + band + k * lanes);
+        hn::StoreU(sum[set][k], d, job.sums + set * job.bands + band + k * lanes);
       }
     }
   }
+  if constexpr (kTogether > 1) {
+    sumFrom<kSets, kTogether - 1>(job, band);
+  }
 }
 
-void sumBlockOnce(const double* block, const double* weights, std::size_t count, double* sums) {
-  sumBlock<1, 4>(block, weights, count, sums);
-}
-void sumBlockThrice(const double* block, const double* weights, std::size_t count, double* sums) {
-  sumBlock<3, 2>(block, weights, count, sums);
+/// @param sets  one, two or three
+void sumSets(const double* spectra, std::size_t bands, std::size_t count, const double* weights,
+             std::size_t weightStride, std::size_t sets, double* sums) {
+  constexpr bool kHasManyRegisters = HWY_MAX_BYTES == 64;
+  const Sums job{spectra, bands, count, weights, weightStride, sums};
+  switch (sets) {
+    case 1:
+      return sumFrom<1, 11>(job, 0);
+    case 2:
+      return sumFrom < 2, kHasManyRegisters ? 11 : 6 > (job, 0);
+    default:
+      return sumFrom < 3, kHasManyRegisters ? 6 : 4 > (job, 0);
+  }
 }
 
 }  // namespace HWY_NAMESPACE
@@ -73,34 +93,22 @@ namespace metamer::sip {
 
 namespace {
 
-using SumBlock = void(const double*, const double*, std::size_t, double*);
+using SumSets = void(const double*, std::size_t, std::size_t, const double*, std::size_t, std::size_t, double*);
 
 }  // namespace
 
-WeightedSums::WeightedSums(const Eigen::MatrixXd& spectra) : m_bandCount(spectra.rows()), m_count(spectra.cols()) {
-  for (Eigen::Index first = 0; first < m_bandCount; first += kBlock) {
-    const Eigen::Index bands = std::min(kBlock, m_bandCount - first);
-    for (Eigen::Index i = 0; i < m_count; ++i) {
-      const Eigen::VectorXd part = spectra.col(i).segment(first, bands);
-      m_blocks.insert(m_blocks.end(), part.begin(), part.end());
-      m_blocks.insert(m_blocks.end(), static_cast<std::size_t>(kBlock - bands), 0.0);
-    }
-  }
+WeightedSums::WeightedSums(const Eigen::MatrixXd& spectra)
+    : m_bandCount(spectra.rows()),
+      m_spectra(Eigen::MatrixXd::Zero((spectra.rows() + kPadding - 1) / kPadding * kPadding, spectra.cols())) {
+  m_spectra.topRows(m_bandCount) = spectra;
 }
 
-Eigen::MatrixXd WeightedSums::of(const Eigen::ArrayXXd& weights) const {
-  assert(weights.rows() == m_count && (weights.cols() == 1 || weights.cols() == 3));
-  const auto count = static_cast<std::size_t>(m_count);
-  SumBlock* const sumBlock = weights.cols() == 1 ? METAMER_CHOOSE_KERNEL(SumBlock, sumBlockOnce)
-                                                 : METAMER_CHOOSE_KERNEL(SumBlock, sumBlockThrice);
-  Eigen::MatrixXd sums(m_bandCount, weights.cols());
-  Eigen::Matrix<double, kBlock, Eigen::Dynamic, 0, kBlock, 3> part(kBlock, weights.cols());
-  const double* block = m_blocks.data();
-  for (Eigen::Index first = 0; first < m_bandCount; first += kBlock, block += kBlock * m_count) {
-    const Eigen::Index bands = std::min(kBlock, m_bandCount - first);
-    sumBlock(block, weights.data(), count, part.data());
-    sums.middleRows(first, bands) = part.topRows(bands);
-  }
+Eigen::MatrixXd WeightedSums::of(const Eigen::Ref<const Eigen::MatrixXd>& weights) const {
+  assert(weights.rows() >= count() && weights.cols() >= 1 && weights.cols() <= 3);
+  Eigen::MatrixXd sums(m_spectra.rows(), weights.cols());
+  METAMER_CHOOSE_KERNEL(SumSets, sumSets)
+  (m_spectra.data(), static_cast<std::size_t>(m_spectra.rows()), static_cast<std::size_t>(count()), weights.data(),
+   static_cast<std::size_t>(weights.outerStride()), static_cast<std::size_t>(weights.cols()), sums.data());
   return sums;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 namespace metamer::sip {
 
@@ -14,20 +13,21 @@ class WeightedSums {
   /// @param spectra  bands x n
   explicit WeightedSums(const Eigen::MatrixXd& spectra);
 
-  /// `spectra * weights`, bands x sets.
-  /// @param weights  n x sets, one or three sets
-  Eigen::MatrixXd of(const Eigen::ArrayXXd& weights) const;
+  /// `spectra * weights`, a column a set; after the bands come up to kPadding - 1 zeros.
+  /// @param weights  a column a set, one to three; n rows, and any number more that are not looked at
+  Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& weights) const;
 
   Eigen::Index bandCount() const { return m_bandCount; }
-  Eigen::Index count() const { return m_count; }
+  Eigen::Index count() const { return m_spectra.cols(); }
+  /// The spectra, bands x n.
+  auto spectra() const { return m_spectra.topRows(m_bandCount); }
 
-  /// Bands that lie together: every spectrum's first kBlock bands, then every one's next, padded with zeros.
-  static constexpr Eigen::Index kBlock = 32;
+  /// Spectra are padded with zeros to a multiple of so many bands.
+  static constexpr Eigen::Index kPadding = 8;
 
  private:
   Eigen::Index m_bandCount = 0;
-  Eigen::Index m_count = 0;
-  std::vector<double> m_blocks;
+  Eigen::MatrixXd m_spectra;  ///< a column a spectrum, padded
 };
 
 }  // namespace metamer::sip

@@ -86,6 +86,8 @@ struct SpectralTransform::State {
   Scene scene;
   Limiter limiter{Limiter::Reach{}};
   bool relaxed = false;
+  Eigen::Matrix3d linearSlope;  ///< of the relative result where no band is clamped and the scene adds nothing
+  WeightedSums seenSamples;     ///< MeasuredScene's, as the relative result sees them
   Diagnostics diagnostics;
 
   std::optional<BandVector> prior(const Eigen::Vector3d& response) const {
@@ -120,6 +122,22 @@ struct SpectralTransform::State {
     }
     return slope;
   }
+  void setSlopes() {
+    linearSlope = relativeSlope(solver->unclamped());
+    if (const auto* measured = std::get_if<MeasuredScene>(&scene)) {
+      Eigen::Matrix3Xd seen = relativeFromSpectrum;
+      if (relaxed) {
+        seen -= sides.relativeFromResponse * solver->weights();
+      }
+      seenSamples = measured->seenBy(seen);
+    }
+  }
+  struct Bent {
+    SoftBoundSolver::Solution solution;
+    Eigen::Matrix3d slope;  ///< of the relative result by the response
+  };
+  /// The spectrum of a response, and how the relative result changes with it.
+  Bent bent(const Eigen::Vector3d& response, const ClampedBands* guess) const;
   void setLimits(const std::vector<spectral::DomainSamples>& training);
 };
 
@@ -143,6 +161,43 @@ void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSampl
   }
   diagnostics.limitedShare =
       static_cast<double>(limited) / static_cast<double>(std::max<std::size_t>(1, colours.size()));
+}
+
+SpectralTransform::State::Bent SpectralTransform::State::bent(const Eigen::Vector3d& response,
+                                                              const ClampedBands* guess) const {
+  const auto of = [&](const BandVector* prior, const auto& slopeOf) {
+    Bent bent;
+    bent.solution = solver->solve(response, prior, guess);
+    bent.slope = slopeOf(bent.solution.clamped);
+    return bent;
+  };
+  if (const auto* measured = std::get_if<MeasuredScene>(&scene)) {
+    if (const auto mixture = measured->mixture(response)) {
+      // Without clamped bands the slope needs no spectra; near a colour with some it will.
+      std::optional<MeasuredScene::Local> local;
+      if (guess != nullptr && guess->any()) {
+        local = measured->local(*mixture);
+      }
+      const BandVector prior = local ? local->value : measured->value(*mixture);
+      return of(&prior, [&](const ClampedBands& clamped) -> Eigen::Matrix3d {
+        if (clamped.none()) {
+          return linearSlope + MeasuredScene::slope(*mixture, seenSamples);
+        }
+        if (!local) {
+          local = measured->local(*mixture);
+        }
+        return relativeSlope(solver->derivative(clamped, &local->slope));
+      });
+    }
+  } else if (const auto* dataset = std::get_if<DatasetScene>(&scene)) {
+    const DatasetScene::Local local = dataset->local(response);
+    return of(&local.value, [&](const ClampedBands& clamped) -> Eigen::Matrix3d {
+      return relativeSlope(solver->derivative(clamped, &local.slope));
+    });
+  }
+  return of(nullptr, [&](const ClampedBands& clamped) -> Eigen::Matrix3d {
+    return clamped.none() ? linearSlope : relativeSlope(solver->derivative(clamped));
+  });
 }
 
 SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
@@ -170,6 +225,7 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   // The price of roughness grows with the number of steps that a slope is spread over.
   state->solver.emplace(weights, relaxation * (kDecisionBandCount - 1) / (bandCount - 1));
   state->scene = makeScene(spec.scene, *state->solver);
+  state->setSlopes();
   if (!state->identity) {
     state->setLimits(spec.training);
   }
@@ -212,23 +268,9 @@ SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vecto
   const Eigen::Vector3d scaled = scale * rgb;
   const Eigen::Vector3d response = state.sides.responseFromRgb * scaled;
   const Eigen::Vector3d relative = state.sides.relativeFromRgb * scaled;
-  SoftBoundSolver::Solution solution;
-  BandTriple slope;
-  std::visit(
-      [&](const auto& kind) {
-        if constexpr (requires { kind.local(response); }) {
-          const auto local = kind.local(response);
-          solution = state.solver->solve(response, &local.value, guess);
-          slope = state.solver->derivative(solution.clamped, &local.slope);
-        } else {
-          solution = state.solver->solve(response, nullptr, guess);
-          slope = state.solver->derivative(solution.clamped);
-        }
-      },
-      state.scene);
+  const auto [solution, slope] = state.bent(response, guess);
   const Eigen::Vector3d difference = state.relativeResult(relative, response, solution.reflectance) - relative;
-  const Eigen::Matrix3d differenceSlope =
-      state.relativeSlope(slope) * state.sides.responseFromRgb - state.sides.relativeFromRgb;
+  const Eigen::Matrix3d differenceSlope = slope * state.sides.responseFromRgb - state.sides.relativeFromRgb;
   const Limiter::Limited limited = state.limiter.limited(relative, difference);
   Linearisation local;
   local.clamped = solution.clamped;
