@@ -141,7 +141,8 @@ class SpectralTransfer final : public Effect {
     const auto engine = m_engines.get(toYaml(recipe) + recipe.folder.string(), [&] {
       FileStamps files = filesOf(recipe);
       return SharedCache<SpectralEngine>::Built{
-          std::make_shared<SpectralEngine>(sip::SpectralTransform(sip::resolve(recipe, library, space.linear))),
+          std::make_shared<SpectralEngine>(
+              sip::SpectralTransform(sip::resolve(recipe, library, space.linear), sip::kDefaultBandCount, &m_scenes)),
           std::move(files)};
     });
     const Quality quality = values.menu("quality", time) == kExactQuality ? Quality::Exact : Quality::Map;
@@ -186,6 +187,7 @@ class SpectralTransfer final : public Effect {
   const Catalogue& m_catalogue;
   mutable SharedCache<SignalTable> m_tables{kKeptTables};
   mutable SharedCache<SpectralEngine> m_engines{kKeptEngines};
+  mutable sip::SceneCache m_scenes;
 };
 
 }  // namespace

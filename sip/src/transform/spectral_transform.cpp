@@ -50,7 +50,7 @@ Eigen::MatrixXd onBands(const std::vector<spectral::DomainSamples>& samples, int
 
 using Scene = std::variant<std::monostate, MeasuredScene, DatasetScene>;
 
-Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
+Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver, SceneCache* cache) {
   if (scene.kind == ReferenceScene::Kind::Smooth) {
     return {};
   }
@@ -71,7 +71,8 @@ Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
   Eigen::VectorXd noise(all.cols());
   noise << Eigen::VectorXd::Constant(samples.cols(), kSampleNoise),
       Eigen::VectorXd::Constant(skins.cols(), kSkinNoise * std::pow(kSkinSceneFactor, strength));
-  return MeasuredScene(solver, all, noise);
+  return cache != nullptr ? MeasuredScene(solver, *cache->seeds(solver.weights(), all, noise))
+                          : MeasuredScene(solver, all, noise);
 }
 
 }  // namespace
@@ -200,7 +201,7 @@ SpectralTransform::State::Bent SpectralTransform::State::bent(const Eigen::Vecto
   });
 }
 
-SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
+SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount, SceneCache* cache) {
   spectral::requireWithin("bandCount", bandCount, kMinimumBandCount, kConvergedBandCount);
   auto state = std::make_unique<State>();
   state->space = spec.space;
@@ -224,7 +225,7 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount) {
   state->relaxed = relaxation > 0.0;
   // The price of roughness grows with the number of steps that a slope is spread over.
   state->solver.emplace(weights, relaxation * (kDecisionBandCount - 1) / (bandCount - 1));
-  state->scene = makeScene(spec.scene, *state->solver);
+  state->scene = makeScene(spec.scene, *state->solver, cache);
   state->setSlopes();
   if (!state->identity) {
     state->setLimits(spec.training);

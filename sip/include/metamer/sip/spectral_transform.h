@@ -11,6 +11,7 @@
 #include "metamer/sip/balance.h"
 #include "metamer/sip/clamped_bands.h"
 #include "metamer/sip/pipeline.h"
+#include "metamer/sip/scene_cache.h"
 #include "metamer/spectral/chromatic_adaptation.h"
 #include "metamer/spectral/rgb_space.h"
 
@@ -59,8 +60,10 @@ struct TransformSpec {
 class SpectralTransform {
  public:
   /// @param bandCount kMinimumBandCount ... kConvergedBandCount
+  /// @param cache     of what other transforms of the same light, observer and scene had to solve; may be null. Not
+  /// kept.
   /// @throws spectral::InputError outside these, or where the specification has no meaning (no light reaches a side)
-  explicit SpectralTransform(const TransformSpec& spec, int bandCount = kDefaultBandCount);
+  explicit SpectralTransform(const TransformSpec& spec, int bandCount = kDefaultBandCount, SceneCache* cache = nullptr);
   ~SpectralTransform();
   SpectralTransform(SpectralTransform&&) noexcept;
   SpectralTransform& operator=(SpectralTransform&&) noexcept;
