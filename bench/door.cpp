@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstring>
 #include <memory>
+#include <vector>
 
 #include "metamer/sip/error_protocol.h"
 #include "metamer/sip/homogeneous_map.h"
@@ -62,8 +63,13 @@ extern "C" void metamerMap(void* handle, const float* source, float* destination
 extern "C" void metamerExact(void* handle, const double* rgb, double* result, std::size_t count, int converged) {
   const auto* session = static_cast<Session*>(handle);
   const auto& transform = converged != 0 ? session->protocol->converged() : *session->exact;
+  std::vector<Eigen::Vector3d> colours(count);
   for (std::size_t i = 0; i < count; ++i) {
-    Eigen::Map<Eigen::Vector3d>(result + 3 * i) = transform.apply(Eigen::Map<const Eigen::Vector3d>(rgb + 3 * i));
+    colours[i] = Eigen::Map<const Eigen::Vector3d>(rgb + 3 * i);
+  }
+  transform.apply(colours);
+  for (std::size_t i = 0; i < count; ++i) {
+    Eigen::Map<Eigen::Vector3d>(result + 3 * i) = colours[i];
   }
 }
 

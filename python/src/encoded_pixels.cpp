@@ -24,9 +24,14 @@ PixelFunction onEncoded(const PixelFunction& linear, std::optional<spectral::Log
             linear.rgba(destination, destination);
             curve(destination, spectral::encode);
           },
-          [code = *encoding, colour = linear.colour](const Eigen::Vector3d& signal) -> Eigen::Vector3d {
-            const auto decoded = signal.unaryExpr([code](double value) { return spectral::decode(code, value); });
-            return colour(decoded).unaryExpr([code](double value) { return spectral::encode(code, value); });
+          [code = *encoding, onLight = linear.colours](std::span<Eigen::Vector3d> colours) {
+            for (Eigen::Vector3d& colour : colours) {
+              colour = colour.unaryExpr([code](double value) { return spectral::decode(code, value); }).eval();
+            }
+            onLight(colours);
+            for (Eigen::Vector3d& colour : colours) {
+              colour = colour.unaryExpr([code](double value) { return spectral::encode(code, value); }).eval();
+            }
           }};
 }
 

@@ -20,11 +20,13 @@ constexpr const char* kCall =
 
 PixelFunction Map::linearFunction() const {
   return {[this](std::span<const float> source, std::span<float> destination) { tables.apply(source, destination); },
-          [this](const Eigen::Vector3d& rgb) -> Eigen::Vector3d {
-            std::array<float, 4> pixel = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
-                                          static_cast<float>(rgb[2]), 1.0F};
-            tables.apply(pixel);
-            return {pixel[0], pixel[1], pixel[2]};
+          [this](std::span<Eigen::Vector3d> colours) {
+            for (Eigen::Vector3d& rgb : colours) {
+              std::array<float, 4> pixel = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+                                            static_cast<float>(rgb[2]), 1.0F};
+              tables.apply(pixel);
+              rgb = {pixel[0], pixel[1], pixel[2]};
+            }
           }};
 }
 

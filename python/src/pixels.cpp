@@ -136,15 +136,25 @@ void run(const PixelFunction& function, const double* source, const Layout& from
   PixelWalk<double> out(destination, to);
   const std::int64_t inStep = in.channelStride();
   const std::int64_t outStep = out.channelStride();
-  for (std::size_t left = from.pixelCount(); left > 0; --left) {
-    const double* const pixel = in.next();
-    double* const result = out.next();
-    const Eigen::Vector3d colour = function.colour({pixel[0], pixel[inStep], pixel[2 * inStep]});
-    if (from.channels() == 4) {
-      result[3 * outStep] = pixel[3 * inStep];
+  const std::size_t count = from.pixelCount();
+  std::vector<Eigen::Vector3d> colours(std::min(kChunk, count));
+  std::vector<double> alphas(colours.size());
+  for (std::size_t done = 0; done < count; done += kChunk) {
+    const std::size_t pixels = std::min(kChunk, count - done);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const double* const pixel = in.next();
+      colours[i] = {pixel[0], pixel[inStep], pixel[2 * inStep]};
+      alphas[i] = from.channels() == 4 ? pixel[3 * inStep] : 1.0;
     }
-    for (std::int64_t k = 0; k < 3; ++k) {
-      result[k * outStep] = colour[k];
+    function.colours(std::span(colours).first(pixels));
+    for (std::size_t i = 0; i < pixels; ++i) {
+      double* const result = out.next();
+      for (std::int64_t k = 0; k < 3; ++k) {
+        result[k * outStep] = colours[i][k];
+      }
+      if (from.channels() == 4) {
+        result[3 * outStep] = alphas[i];
+      }
     }
   }
 }

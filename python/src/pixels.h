@@ -20,7 +20,7 @@ using Pixels = nb::ndarray<const Number, nb::device::cpu>;
 struct PixelFunction {
   /// RGBA to RGBA; the two are one or do not overlap.
   std::function<void(std::span<const float> source, std::span<float> destination)> rgba;
-  std::function<Eigen::Vector3d(const Eigen::Vector3d& rgb)> colour;
+  std::function<void(std::span<Eigen::Vector3d> colours)> colours;  ///< in place
 };
 
 /// Runs a function over pixels with the GIL released; alpha goes along as it is.

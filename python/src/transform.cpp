@@ -77,7 +77,7 @@ PixelFunction Transform::linearFunction() const {
             copy(source, destination);
             engine->apply(destination);
           },
-          [engine = engine](const Eigen::Vector3d& rgb) { return engine->apply(rgb); }};
+          [engine = engine](std::span<Eigen::Vector3d> colours) { engine->apply(colours); }};
 }
 
 PixelFunction Transform::function() const {

@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bake/bake_operators.h"
 #include "bake/ladder.h"
@@ -12,6 +13,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
+#include "operators/parallel.h"
 
 namespace metamer::ocio {
 namespace {
@@ -30,9 +32,12 @@ Certificate newCertificate(const sip::Recipe& recipe, const spectral::DataLibrar
   certificate.bandCount = prepared.transform.bandCount();
   certificate.gamut = prepared.space.engine.name;
   certificate.diagnostics = prepared.transform.diagnostics();
+  const auto& probes = protocol.probes();
+  std::vector<Eigen::Matrix3d> slopes(probes.size());
+  parallelFor(static_cast<int>(probes.size()),
+              [&](int k) { slopes[k] = prepared.transform.linearise(probes[k].rgb).matrix; });
   std::size_t folded = 0;
-  for (const auto& probe : protocol.probes()) {
-    const Eigen::Matrix3d slope = prepared.transform.linearise(probe.rgb).matrix;
+  for (const Eigen::Matrix3d& slope : slopes) {
     folded += slope.determinant() < 0.0 ? 1 : 0;
     certificate.gain = std::max(certificate.gain, Eigen::JacobiSVD<Eigen::Matrix3d>(slope).singularValues()[0]);
   }
@@ -50,12 +55,19 @@ class Baking {
       : m_format(format),
         m_options(options),
         m_prepared(prepare(recipe, library, options)),
-        m_probes(probesOf(format, m_prepared, options)),
-        m_protocol(m_prepared.spec, library.reflectances(sip::ErrorProtocol::kChart).samples, m_probes),
-        m_pixels(m_prepared.transform, library.certificatePixels()),
-        m_certificate(newCertificate(recipe, library, m_prepared, m_protocol)) {
+        m_probes(probesOf(format, m_prepared, options)) {
+    const auto chart = library.reflectances(sip::ErrorProtocol::kChart).samples;
+    const auto pixels = library.certificatePixels();
+    parallelFor(2, [&](int judge) {
+      if (judge == 0) {
+        m_protocol.emplace(m_prepared.spec, chart, m_probes);
+      } else {
+        m_pixels.emplace(m_prepared.transform, pixels);
+      }
+    });
+    m_certificate = newCertificate(recipe, library, m_prepared, *m_protocol);
     m_certificate.probes = m_probes;
-    m_certificate.brightening = m_pixels.brightening();
+    m_certificate.brightening = m_pixels->brightening();
     choose();
   }
 
@@ -63,8 +75,8 @@ class Baking {
   /// @throws spectral::InputError where it gives what is not a number: no certificate says that
   void certify(const PixelProcessor& processor) {
     const Candidate candidate(processor, m_operators.toPixels, m_operators.fromPixels);
-    m_certificate.error = m_protocol.search(candidate);
-    m_certificate.pixels = m_pixels.measure(candidate);
+    m_certificate.error = m_protocol->search(candidate);
+    m_certificate.pixels = m_pixels->measure(candidate);
     if (!std::isfinite(m_certificate.error.max) || !std::isfinite(m_certificate.pixels.largest)) {
       throw InputError("", "transform", "not a number",
                        "colours come out infinite or as no number; name another light, observer or format");
@@ -84,8 +96,8 @@ class Baking {
   const BakeOptions& m_options;
   Prepared m_prepared;
   sip::ErrorProtocol::Options m_probes;
-  sip::ErrorProtocol m_protocol;
-  PixelProtocol m_pixels;
+  std::optional<sip::ErrorProtocol> m_protocol;
+  std::optional<PixelProtocol> m_pixels;
   Certificate m_certificate;
   Operators m_operators;
 };
@@ -115,7 +127,7 @@ void Baking::choose() {
       climb(rungsOf(m_format.content, holdsChain(m_format), largest), *m_options.tolerance, [&](const Rung& rung) {
         tried.size = rung.size;
         make(tried, rung.representation);
-        return m_protocol.measure(
+        return m_protocol->measure(
             Candidate(PixelProcessor(m_operators.group), m_operators.toPixels, m_operators.fromPixels));
       });
 }

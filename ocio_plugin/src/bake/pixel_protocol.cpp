@@ -61,10 +61,16 @@ PixelProtocol::PixelProtocol(const sip::SpectralTransform& engine, const std::ve
       m_expected(pixels.size()),
       m_displayFromRgb(between(engine.space(), display())) {
   const Eigen::Matrix3d fromSet = between(acesCg(), engine.space());
-  parallelFor(static_cast<int>(m_pixels.size()), [&](int k) {
-    // What a candidate sees.
-    m_pixels[k].rgb = (fromSet * m_pixels[k].rgb).cast<float>().cast<double>();
-    m_expected[k] = m_engine.apply(m_pixels[k].rgb);
+  constexpr std::size_t kBlock = 256;
+  parallelFor(static_cast<int>((m_pixels.size() + kBlock - 1) / kBlock), [&](int block) {
+    const std::size_t first = kBlock * static_cast<std::size_t>(block);
+    const std::size_t count = std::min(kBlock, m_pixels.size() - first);
+    for (std::size_t k = first; k < first + count; ++k) {
+      // What a candidate sees.
+      m_pixels[k].rgb = (fromSet * m_pixels[k].rgb).cast<float>().cast<double>();
+      m_expected[k] = m_pixels[k].rgb;
+    }
+    m_engine.apply(std::span(m_expected).subspan(first, count));
   });
   const Eigen::RowVector3d luminance = engine.space().xyzFromRgb().row(1);
   const double white = luminance * engine.apply(Eigen::Vector3d(1.0, 1.0, 1.0));

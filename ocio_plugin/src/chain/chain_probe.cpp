@@ -33,8 +33,17 @@ Eigen::Vector3d ChainProbe::colourAt(const Eigen::Vector2d& point, double value)
   return m_rgbFromInput * colourOf({point.x(), 2.0 * point.y(), value});
 }
 
-Eigen::Vector3d ChainProbe::ratioAt(const Eigen::Vector2d& point, double value) const {
-  return m_frame.outputFromRgb * m_transform.apply(colourAt(point, value));
+std::vector<Eigen::Vector3d> ChainProbe::ratiosAt(const std::vector<Eigen::Vector2d>& points, double value) const {
+  std::vector<Eigen::Vector3d> ratios;
+  ratios.reserve(points.size());
+  for (const Eigen::Vector2d& point : points) {
+    ratios.push_back(colourAt(point, value));
+  }
+  m_transform.apply(ratios);
+  for (Eigen::Vector3d& ratio : ratios) {
+    ratio = m_frame.outputFromRgb * ratio;
+  }
+  return ratios;
 }
 
 bool ChainProbe::isLight(const Eigen::Vector2d& point) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "chain/chain_frame.h"
 #include "metamer/sip/spectral_locus.h"
@@ -15,9 +16,9 @@ class ChainProbe {
   /// @param frame, transform  must outlive the probe
   ChainProbe(const ChainFrame& frame, const sip::TransformSpec& spec, const sip::SpectralTransform& transform);
 
-  /// Where a value of 1 or -1 goes: the output's channels.
+  /// Where a value of 1 or -1 goes at some points: the output's channels.
   /// @param value  1 or -1
-  Eigen::Vector3d ratioAt(const Eigen::Vector2d& point, double value) const;
+  std::vector<Eigen::Vector3d> ratiosAt(const std::vector<Eigen::Vector2d>& points, double value) const;
 
   /// Whether a point, above zero, is a colour of light: one by which the error protocol may judge.
   bool isLight(const Eigen::Vector2d& point) const;

@@ -40,13 +40,18 @@ void sampleNodes(ChainTable& table, const ChainProbe& probe) {
   table.above.resize(hues.size() * saturations.size());
   table.below.resize(table.above.size());
   parallelFor(static_cast<int>(hues.size()), [&](int i) {
+    std::vector<Eigen::Vector2d> points;
     for (std::size_t j = 0; j < saturations.size(); ++j) {
       // Round the neutral axis and where hue closes, nodes are one colour.
       const bool isWrapped = i + 1 == static_cast<int>(hues.size());
-      const Eigen::Vector2d point(j == 0 || isWrapped ? 0.0 : hues[i], saturations[j]);
-      table.above[i * saturations.size() + j] = probe.ratioAt(point, 1.0);
-      table.below[i * saturations.size() + j] = probe.ratioAt(point, -1.0);
+      points.emplace_back(j == 0 || isWrapped ? 0.0 : hues[i], saturations[j]);
     }
+    const auto put = [&](std::vector<Eigen::Vector3d>& side, double value) {
+      const auto ratios = probe.ratiosAt(points, value);
+      std::copy(ratios.begin(), ratios.end(), side.begin() + static_cast<std::ptrdiff_t>(i * saturations.size()));
+    };
+    put(table.above, 1.0);
+    put(table.below, -1.0);
   });
 }
 
@@ -78,6 +83,7 @@ void Fit::takeSamples(const ChainProbe& probe) {
   const auto& [hues, saturations] = m_lattice.ticks;
   std::vector<std::vector<LatticeSample>> strips(hues.size() - 1);
   parallelFor(static_cast<int>(strips.size()), [&](int i) {
+    std::vector<Eigen::Vector2d> points;
     for (std::size_t j = 0; j + 1 < saturations.size() && saturations[j + 1] <= 0.5; ++j) {
       for (const auto& [u, v] : kPlaces) {
         const Eigen::Vector2d point(hues[i] + u * (hues[i + 1] - hues[i]),
@@ -87,11 +93,14 @@ void Fit::takeSamples(const ChainProbe& probe) {
             !std::all_of(nodes.begin(), nodes.end(), [&](std::size_t k) { return isPositive(m_table.above[k]); })) {
           continue;
         }
-        const Eigen::Vector3d ratio = probe.ratioAt(point, 1.0);
-        if (isPositive(ratio)) {
-          const Eigen::Vector3d log = logOf(ratio);
-          strips[i].push_back({point, log, probe.metric(point, log)});
-        }
+        points.push_back(point);
+      }
+    }
+    const std::vector<Eigen::Vector3d> ratios = probe.ratiosAt(points, 1.0);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (isPositive(ratios[k])) {
+        const Eigen::Vector3d log = logOf(ratios[k]);
+        strips[i].push_back({points[k], log, probe.metric(points[k], log)});
       }
     }
   });

@@ -121,15 +121,23 @@ Bending bendingOf(const ChainProbe& probe) {
   const auto pointAt = [](int hue, int saturation) {
     return Eigen::Vector2d(static_cast<double>(hue) / (kHues - 1), 0.5 * saturation / (kSaturations - 1));
   };
-  std::vector<Eigen::Vector3d> logs(static_cast<std::size_t>(kHues) * kSaturations);
+  std::vector<Eigen::Vector3d> logs(static_cast<std::size_t>(kHues) * kSaturations,
+                                    Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   const auto at = [](int hue, int saturation) { return static_cast<std::size_t>(hue) * kSaturations + saturation; };
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   parallelFor(kHues, [&](int hue) {
+    std::vector<int> lights;
+    std::vector<Eigen::Vector2d> points;
     for (int s = 0; s < kSaturations; ++s) {
-      const Eigen::Vector2d point = pointAt(hue, s);
-      const Eigen::Vector3d ratio = probe.isLight(point) ? probe.ratioAt(point, 1.0) : Eigen::Vector3d::Constant(kNone);
-      logs[at(hue, s)] = ratio.minCoeff() > 0.0 ? Eigen::Vector3d(ratio.array().log() / std::log(2.0))
-                                                : Eigen::Vector3d::Constant(kNone);
+      if (probe.isLight(pointAt(hue, s))) {
+        lights.push_back(s);
+        points.push_back(pointAt(hue, s));
+      }
+    }
+    const std::vector<Eigen::Vector3d> ratios = probe.ratiosAt(points, 1.0);
+    for (std::size_t k = 0; k < ratios.size(); ++k) {
+      if (ratios[k].minCoeff() > 0.0) {
+        logs[at(hue, lights[k])] = ratios[k].array().log() / std::log(2.0);
+      }
     }
   });
   const auto bend = [&](int hue, int s, std::size_t before, std::size_t after) {

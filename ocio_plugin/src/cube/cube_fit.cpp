@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "cube/cube_lattice.h"
 #include "operators/parallel.h"
@@ -145,6 +146,16 @@ class Fit {
     }
   }
 
+  /// Calls body(first, last) for all samples in blocks, on any threads.
+  template <typename Body>
+  void overBlocks(const Body& body) const {
+    constexpr std::size_t kBlock = 4096;
+    parallelFor(static_cast<int>((m_samples.size() + kBlock - 1) / kBlock), [&](int block) {
+      const std::size_t first = kBlock * static_cast<std::size_t>(block);
+      body(first, std::min(first + kBlock, m_samples.size()));
+    });
+  }
+
   /// Errors of the lattice at all samples, and what the quadratic form takes for them. Small ones are what it says.
   struct Errors {
     std::vector<float> full;
@@ -152,11 +163,8 @@ class Fit {
   };
 
   Errors errors() const {
-    constexpr std::size_t kBlock = 4096;
     Errors errors{std::vector<float>(m_samples.size()), std::vector<float>(m_samples.size())};
-    parallelFor(static_cast<int>((m_samples.size() + kBlock - 1) / kBlock), [&](int block) {
-      const std::size_t first = kBlock * static_cast<std::size_t>(block);
-      const std::size_t last = std::min(first + kBlock, m_samples.size());
+    overBlocks([&](std::size_t first, std::size_t last) {
       std::vector<std::size_t> large;
       std::vector<CubeSample> judged;
       std::vector<float> rgba;
@@ -185,14 +193,15 @@ class Fit {
     const auto rank = static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(sorted.size() - 1));
     std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
     const float reference = std::max(sorted[static_cast<std::size_t>(rank)], 1e-9F);
-    double sum = 0.0;
-    for (std::size_t k = 0; k < m_samples.size(); ++k) {
-      const float part = std::max(found.full[k] / reference, kLeastPart);
-      const float beyond = found.quadratic[k] > kSmall ? found.full[k] / found.quadratic[k] : 1.0F;
-      const float counted = std::min(part, 1.0F / part);
-      m_weights[k] = std::pow(m_weights[k], kKept) * counted * counted * beyond;
-      sum += static_cast<double>(m_weights[k]);
-    }
+    overBlocks([&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) {
+        const float part = std::max(found.full[k] / reference, kLeastPart);
+        const float beyond = found.quadratic[k] > kSmall ? found.full[k] / found.quadratic[k] : 1.0F;
+        const float counted = std::min(part, 1.0F / part);
+        m_weights[k] = std::pow(m_weights[k], kKept) * counted * counted * beyond;
+      }
+    });
+    const double sum = std::accumulate(m_weights.begin(), m_weights.end(), 0.0);
     const auto level = static_cast<float>(static_cast<double>(m_samples.size()) / sum);
     for (float& weight : m_weights) {
       weight *= level;

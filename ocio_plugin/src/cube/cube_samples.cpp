@@ -64,16 +64,23 @@ class Sampler {
   void run(int first, int last, std::vector<CubeSample>& samples) const {
     std::vector<Direction> directions;
     std::vector<double> phase;
+    std::vector<int> indices;
+    std::vector<Eigen::Vector3d> colours;
     for (int k = first; k < last; ++k) {
       const Eigen::Vector3d in = spreadColour(m_transform.space(), m_rgbFromXyz, k);
-      if (!in.allFinite() || in.minCoeff() < 0.0) {
-        continue;
+      if (in.allFinite() && in.minCoeff() >= 0.0) {
+        indices.push_back(k);
+        colours.push_back(in);
       }
-      const Eigen::Vector3d out = m_transform.apply(in);
+    }
+    std::vector<Eigen::Vector3d> results = colours;
+    m_transform.apply(results);
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+      const Eigen::Vector3d& out = results[i];
       const Eigen::Matrix3d form = perceptual(out);
       if (out.allFinite() && form.allFinite()) {
-        directions.push_back({in, out, form, spectral::lab(m_xyzFromRgb * out, m_white).cast<float>()});
-        phase.push_back(std::fmod((k + 1) / kGolden, 1.0));
+        directions.push_back({colours[i], out, form, spectral::lab(m_xyzFromRgb * out, m_white).cast<float>()});
+        phase.push_back(std::fmod((indices[i] + 1) / kGolden, 1.0));
       }
     }
     for (int exposure = 0; exposure < m_count; ++exposure) {

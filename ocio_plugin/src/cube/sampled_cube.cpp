@@ -2,7 +2,6 @@
 #include "cube/sampled_cube.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -31,25 +30,43 @@ std::optional<float> gainBetween(const float* from, const float* to) {
   return gain;
 }
 
-/// Applies the transform to the lights of the nodes along one diagonal. Above the toe of a logarithm a diagonal is one
+/// The lights of nodes along diagonals, to be solved together. Above the toe of a logarithm a diagonal is one
 /// chromaticity at rising exposures, and one solve is enough for it.
-void applyAlongDiagonal(const sip::SpectralTransform& transform, std::vector<float>& rgba, std::size_t first,
-                        std::size_t step, std::size_t count) {
-  std::array<float, 4> solvedFor{};
-  Eigen::Vector3d solved = Eigen::Vector3d::Zero();
-  for (std::size_t k = count; k-- > 0;) {
-    float* pixel = rgba.data() + 4 * (first + k * step);
-    const std::optional<float> gain = k + 1 < count ? gainBetween(solvedFor.data(), pixel) : std::nullopt;
-    if (!gain) {
-      std::copy(pixel, pixel + 4, solvedFor.begin());
-      solved = transform.apply(Eigen::Map<const Eigen::Vector3f>(pixel).cast<double>());
-    }
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      const double value = solved[static_cast<Eigen::Index>(channel)];
-      pixel[channel] = static_cast<float>(static_cast<double>(gain.value_or(1.0F)) * value);
+class Diagonals {
+ public:
+  /// @param rgba  of all nodes; kept
+  explicit Diagonals(std::span<float> rgba) : m_rgba(rgba) {}
+
+  void add(std::size_t first, std::size_t step, std::size_t count) {
+    const float* solved = nullptr;
+    for (std::size_t k = count; k-- > 0;) {
+      float* pixel = m_rgba.data() + 4 * (first + k * step);
+      const std::optional<float> gain = solved != nullptr ? gainBetween(solved, pixel) : std::nullopt;
+      if (!gain) {
+        m_colours.emplace_back(Eigen::Map<const Eigen::Vector3f>(pixel).cast<double>());
+        solved = pixel;
+      }
+      m_nodes.push_back({pixel, m_colours.size() - 1, gain.value_or(1.0F)});
     }
   }
-}
+
+  void apply(const sip::SpectralTransform& transform) {
+    transform.apply(m_colours);
+    for (const Node& node : m_nodes) {
+      Eigen::Map<Eigen::Vector3f>(node.pixel) = (static_cast<double>(node.gain) * m_colours[node.solved]).cast<float>();
+    }
+  }
+
+ private:
+  struct Node {
+    float* pixel;
+    std::size_t solved;
+    float gain;
+  };
+  std::span<float> m_rgba;
+  std::vector<Eigen::Vector3d> m_colours;
+  std::vector<Node> m_nodes;
+};
 
 }  // namespace
 
@@ -81,12 +98,13 @@ std::vector<Eigen::Vector3f> sampledCube(const sip::SpectralTransform& transform
   } else {
     // Every diagonal starts on one of the three faces through black.
     parallelFor(size, [&](int a) {
+      Diagonals diagonals(rgba);
       for (int b = 0; b < size; ++b) {
         const auto start = [&](int red, int green, int blue) {
           const auto first = static_cast<std::size_t>(red) +
                              side * (static_cast<std::size_t>(green) + side * static_cast<std::size_t>(blue));
           const auto count = side - static_cast<std::size_t>(std::max({red, green, blue}));
-          applyAlongDiagonal(transform, rgba, first, 1 + side + side * side, count);
+          diagonals.add(first, 1 + side + side * side, count);
         };
         start(0, a, b);
         if (a > 0) {
@@ -96,6 +114,7 @@ std::vector<Eigen::Vector3f> sampledCube(const sip::SpectralTransform& transform
           }
         }
       }
+      diagonals.apply(transform);
     });
   }
   std::vector<Eigen::Vector3f> nodes(side * side * side);

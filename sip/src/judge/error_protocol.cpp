@@ -58,7 +58,6 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
   const auto add = [&](std::string name, const Eigen::Vector3d& rgb) {
     if (!options.insideGamutOnly || rgb.minCoeff() >= 0.0) {
       m_probes.push_back({std::move(name), rgb});
-      m_expected.push_back(m_converged.apply(rgb));
     }
   };
   const auto colourAt = [&](const Eigen::Vector2d& xy) -> Eigen::Vector3d {
@@ -90,6 +89,17 @@ ErrorProtocol::ErrorProtocol(const TransformSpec& spec, const std::vector<spectr
     const Eigen::Vector2d xy = white + kRingFraction * m_locus.distanceFrom(white, direction) * direction;
     add(label("ring", xy.x(), xy.y()), colourAt(xy));
   }
+  m_expected = resultsOf(m_converged);
+}
+
+std::vector<Eigen::Vector3d> ErrorProtocol::resultsOf(const SpectralTransform& transform) const {
+  std::vector<Eigen::Vector3d> results;
+  results.reserve(m_probes.size());
+  for (const Probe& probe : m_probes) {
+    results.push_back(probe.rgb);
+  }
+  transform.apply(results);
+  return results;
 }
 
 ErrorProtocol::Report ErrorProtocol::measure(const std::function<void(std::span<float> rgba)>& candidate) const {
@@ -98,12 +108,7 @@ ErrorProtocol::Report ErrorProtocol::measure(const std::function<void(std::span<
 
 ErrorProtocol::Report ErrorProtocol::measureAgainst(const SpectralTransform& reference,
                                                     const std::function<void(std::span<float> rgba)>& candidate) const {
-  std::vector<Eigen::Vector3d> expected;
-  expected.reserve(m_probes.size());
-  for (const Probe& probe : m_probes) {
-    expected.push_back(reference.apply(probe.rgb));
-  }
-  return compare(expected, candidate);
+  return compare(resultsOf(reference), candidate);
 }
 
 Eigen::Vector3d ErrorProtocol::labOf(const Eigen::Vector3d& rgb) const {
@@ -131,10 +136,12 @@ ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<f
     Eigen::Vector2d best = spectral::chromaticity(start);
     double most = found;
     for (double step = kLongestStep; step >= kShortestStep; step *= 0.5) {
-      const Eigen::Vector2d centre = best;
+      std::vector<Eigen::Vector2d> places;
+      std::vector<Eigen::Vector3d> colours;
+      std::vector<float> pixels;
       for (int direction = 0; direction < 8; ++direction) {
         const double angle = std::numbers::pi / 4.0 * direction;
-        const Eigen::Vector2d xy = centre + step * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+        const Eigen::Vector2d xy = best + step * Eigen::Vector2d(std::cos(angle), std::sin(angle));
         if (!(xy.y() > 0.0) || !m_locus.contains(xy)) {
           continue;
         }
@@ -142,19 +149,26 @@ ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<f
         if (m_options.insideGamutOnly && rgb.minCoeff() < 0.0) {
           continue;
         }
-        std::array<float, 4> pixel{};
-        Eigen::Map<Eigen::Vector4f>(pixel.data()) << (exposure * rgb).cast<float>(), 1.0F;
-        candidate(pixel);
-        const Eigen::Vector3d result = Eigen::Map<const Eigen::Vector3f>(pixel.data()).cast<double>() / exposure;
-        const double error = errorOf(labOf(m_converged.apply(rgb)), result);
+        places.push_back(xy);
+        colours.push_back(rgb);
+        for (const double channel : {rgb[0], rgb[1], rgb[2], 1.0 / exposure}) {
+          pixels.push_back(static_cast<float>(exposure * channel));
+        }
+      }
+      std::vector<Eigen::Vector3d> expected = colours;
+      m_converged.apply(expected);
+      candidate(pixels);
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        const Eigen::Vector3d result = Eigen::Map<const Eigen::Vector3f>(pixels.data() + 4 * i).cast<double>();
+        const double error = errorOf(labOf(expected[i]), result / exposure);
         if (error > most) {
           most = error;
-          best = xy;
+          best = places[i];
         }
         if (error > report.max) {
           report.max = error;
-          report.worstProbe = atStop(label("near xy", xy.x(), xy.y()), stop);
-          report.worstRgb = exposure * rgb;
+          report.worstProbe = atStop(label("near xy", places[i].x(), places[i].y()), stop);
+          report.worstRgb = exposure * colours[i];
         }
       }
     }

@@ -10,8 +10,10 @@
 #include <memory>
 #include <memory_resource>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 
+#include "map/adini_element.h"
 #include "map/fine_table.h"
 #include "metamer/spectral/argument_checks.h"
 #include "transform/perceptual_metric.h"
@@ -73,21 +75,6 @@ std::vector<Eigen::Vector3d> inscribedPolygon(std::vector<Eigen::Vector3d> corne
   return corners;
 }
 
-/// Adini's element: twelve terms, each an RGB, in the order of HomogeneousMap::Patch.
-using Adini = std::array<Eigen::Vector3d, 12>;
-
-/// Power coefficients of the cubic with values a, b and derivatives da, db at 0 and 1.
-std::array<Eigen::Vector3d, 4> hermite(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& da,
-                                       const Eigen::Vector3d& db) {
-  return {a, da, 3.0 * (b - a) - 2.0 * da - db, 2.0 * (a - b) + da + db};
-}
-
-Eigen::Vector3d evaluate(const Adini& patch, double u, double v) {
-  const Eigen::Vector3d constant = ((patch[3] * u + patch[2]) * u + patch[1]) * u + patch[0];
-  const Eigen::Vector3d linear = ((patch[7] * u + patch[6]) * u + patch[5]) * u + patch[4];
-  return (((patch[11] * u + patch[10]) * v + (patch[9] * u + patch[8])) * v + linear) * v + constant;
-}
-
 /// What all parts of a map are built from.
 struct Source {
   Source(const SpectralTransform& given, double givenTolerance)
@@ -119,10 +106,20 @@ class Part {
   void build() {
     m_table = std::make_unique<NodeTable>();
     const int side = 1 << Map::kRootBits[static_cast<std::size_t>(m_face)];
+    constexpr int kSide = 1 << (Map::kMaximumDepth + 1);
+    std::vector<std::size_t> open;  // cells that are not judged yet, all of one level
     for (int j = m_firstRow; j < m_firstRow + kRows; ++j) {
       for (int i = 0; i < side; ++i) {
-        addRoot(i, j);
+        open.push_back(m_cells.size());
+        m_cells.push_back({i * kSide, j * kSide, kSide});
       }
+    }
+    const std::size_t rootCount = open.size();
+    while (!open.empty()) {
+      open = judged(open);
+    }
+    for (std::size_t root = 0; root < rootCount; ++root) {
+      addRoot(root);
     }
     for (const Smooth& smooth : m_smooth) {
       m_fine->check(
@@ -130,6 +127,7 @@ class Part {
           kFineShare * m_source.tolerance);
     }
     m_smooth.clear();
+    m_cells.clear();
     m_table.reset();
   }
 
@@ -155,11 +153,22 @@ class Part {
  private:
   /// The transform at a point of a face, as a function of the face's coordinates.
   struct Node {
-    Eigen::Vector3d value;
-    ClampedBands clamped;
+    SpectralTransform::Point point;
+    bool hasSlopes = false;
     Eigen::Vector3d alongU;  ///< derivative per unit of the first face coordinate
     Eigen::Vector3d alongV;
     Eigen::Matrix3d metric;  ///< length of metric * error is about CIEDE2000
+  };
+  /// A square of a face: a patch, or four smaller ones. Lengths are in half finest cells.
+  struct Cell {
+    int u;
+    int v;
+    int side;
+    int level = 0;
+    std::size_t firstPart = 0;  ///< of four; 0: none
+    double excess = 0.0;        ///< largest error at the checked points, over the tolerance
+    std::array<Node*, 4> corners = {};
+    Adini patch = {};
   };
   struct Placed {
     int level;
@@ -168,67 +177,75 @@ class Part {
     std::uint32_t patch;
   };
 
-  /// Position in units of half the finest cell, with a node close by.
-  const Node& node(int u, int v, const Node& near) {
+  int steps() const { return 1 << (Map::kRootBits[static_cast<std::size_t>(m_face)] + Map::kMaximumDepth + 1); }
+  int firstAxis() const { return (m_face / 2 + 1) % 3; }
+  int secondAxis() const { return (m_face / 2 + 2) % 3; }
+
+  /// The node at a place; one that is new waits for solveNodes().
+  Node* node(int u, int v) {
     const std::uint64_t key = (static_cast<std::uint64_t>(u) << 20) | static_cast<std::uint64_t>(v);
     const auto [place, isNew] = m_table->nodes.try_emplace(key);
-    Node& made = place->second;
-    if (!isNew) {
-      return made;
+    Node& node = place->second;
+    if (isNew) {
+      Eigen::Vector3d cube;
+      cube[m_face / 2] = m_face % 2 == 0 ? 1.0 : -1.0;
+      cube[firstAxis()] = 2.0 * u / steps() - 1.0;
+      cube[secondAxis()] = 2.0 * v / steps() - 1.0;
+      node.point.rgb = m_source.rgbFromCube * cube;
+      m_unsolved.push_back(&node);
     }
-    const int steps = 1 << (Map::kRootBits[static_cast<std::size_t>(m_face)] + Map::kMaximumDepth + 1);
-    const int axis = m_face / 2;
-    Eigen::Vector3d cube;
-    cube[axis] = m_face % 2 == 0 ? 1.0 : -1.0;
-    cube[(axis + 1) % 3] = 2.0 * u / steps - 1.0;
-    cube[(axis + 2) % 3] = 2.0 * v / steps - 1.0;
-    const Eigen::Vector3d rgb = m_source.rgbFromCube * cube;
-    const SpectralTransform::Linearisation exact = m_source.transform.linearise(rgb, &near.clamped);
-    made.value = exact.value;
-    made.clamped = exact.clamped;
-    made.alongU = exact.matrix * m_source.rgbFromCube.col((axis + 1) % 3);
-    made.alongV = exact.matrix * m_source.rgbFromCube.col((axis + 2) % 3);
-    made.metric = m_source.metric.at(rgb, made.value);
-    ++m_statistics.solves;
-    return made;
+    return &node;
   }
 
-  /// The element over the corners (low-low, high-low, low-high, high-high): a cubic along each edge by the values and
-  /// derivatives at its ends. Neighbours of one size share their edge exactly.
-  static Adini adiniPatch(const std::array<const Node*, 4>& corner, double side) {
-    const auto alongU = [&](std::size_t from, std::size_t to) {
-      return hermite(corner[from]->value, corner[to]->value, side * corner[from]->alongU, side * corner[to]->alongU);
+  /// Solves the nodes that wait, side by side.
+  void solveNodes() {
+    std::vector<SpectralTransform::Point> points;
+    points.reserve(m_unsolved.size());
+    for (const Node* node : m_unsolved) {
+      points.push_back(node->point);
+    }
+    m_source.transform.solve(points);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      Node& node = *m_unsolved[k];
+      node.point = points[k];
+      node.metric = m_source.metric.at(node.point.rgb, node.point.value);
+    }
+    m_statistics.solves += static_cast<int>(points.size());
+    m_unsolved.clear();
+  }
+
+  void addSlopes(Node& node) const {
+    if (!node.hasSlopes) {
+      const Eigen::Matrix3d slope = m_source.transform.slopeAt(node.point);
+      node.alongU = slope * m_source.rgbFromCube.col(firstAxis());
+      node.alongV = slope * m_source.rgbFromCube.col(secondAxis());
+      node.hasSlopes = true;
+    }
+  }
+
+  Adini patchOver(const Cell& cell) const {
+    const auto corner = [&](std::size_t k) {
+      const Node& node = *cell.corners[k];
+      return AdiniCorner{node.point.value, node.alongU, node.alongV};
     };
-    const auto alongV = [&](std::size_t from, std::size_t to) {
-      return hermite(corner[from]->value, corner[to]->value, side * corner[from]->alongV, side * corner[to]->alongV);
-    };
-    const auto bottom = alongU(0, 1);
-    const auto top = alongU(2, 3);
-    const auto left = alongV(0, 2);
-    const auto right = alongV(1, 3);
-    const Eigen::Vector3d twist = corner[3]->value - corner[2]->value - corner[1]->value + bottom[0];
-    Adini patch{bottom[0],          bottom[1],          bottom[2], bottom[3],          left[1], {},
-                top[2] - bottom[2], top[3] - bottom[3], left[2],   right[2] - left[2], left[3], right[3] - left[3]};
-    patch[5] = twist - patch[6] - patch[7] - patch[9] - patch[11];
-    return patch;
+    return adiniElement({corner(0), corner(1), corner(2), corner(3)}, 2.0 * cell.side / steps());
   }
 
   /// Error of a patch at a checked point over the tolerance there.
   double excess(const Adini& patch, const Node& at, double u, double v) const {
-    return (at.metric * (evaluate(patch, u, v) - at.value)).norm() / m_source.tolerance;
+    return (at.metric * (evaluate(patch, u, v) - at.point.value)).norm() / m_source.tolerance;
   }
 
-  /// @param u, v, side  corner and side in units of 1 / steps of the face
-  std::uint32_t store(const Adini& adini, int u, int v, int side, int steps) {
+  std::uint32_t store(const Cell& cell) {
     const auto index = static_cast<std::uint32_t>(m_patches.size());
     Map::Patch& patch = m_patches.emplace_back();
-    for (std::size_t term = 0; term < adini.size(); ++term) {
-      Eigen::Map<Eigen::Vector3f>(patch.coefficients.data() + 3 * term) = adini[term].cast<float>();
+    for (std::size_t term = 0; term < cell.patch.size(); ++term) {
+      Eigen::Map<Eigen::Vector3f>(patch.coefficients.data() + 3 * term) = cell.patch[term].cast<float>();
     }
     // All exact: powers of two, and multiples of them.
-    const std::array<float, 2> low = {static_cast<float>(u) / static_cast<float>(steps),
-                                      static_cast<float>(v) / static_cast<float>(steps)};
-    const int perUnit = steps / side;
+    const std::array<float, 2> low = {static_cast<float>(cell.u) / static_cast<float>(steps()),
+                                      static_cast<float>(cell.v) / static_cast<float>(steps())};
+    const int perUnit = steps() / cell.side;
     patch.scale = static_cast<float>(perUnit);
     for (std::size_t k = 0; k < 2; ++k) {
       patch.offset[k] = (0.5F - low[k]) * patch.scale;
@@ -237,49 +254,86 @@ class Part {
     return index;
   }
 
-  /// Corner (u, v) and side of a cell in half finest cells.
-  void refine(int u, int v, int side, int level, int i, int j, std::vector<Placed>& placed) {
-    const Node& first = node(u, v, *m_latest);
-    m_latest = &first;
-    const Node& second = node(u + side, v, first);
-    const Node& third = node(u, v + side, first);
-    const Node& fourth = node(u + side, v + side, second);
-    const int steps = 1 << (Map::kRootBits[static_cast<std::size_t>(m_face)] + Map::kMaximumDepth + 1);
-    const Adini patch = adiniPatch({&first, &second, &third, &fourth}, 2.0 * side / steps);
-    const int half = side / 2;
+  bool isDeepest(const Cell& cell) const { return cell.level == Map::kDepthLimit[static_cast<std::size_t>(m_face)]; }
+  /// A cell whose middle does not settle it is checked on its edges: also the corners of the four parts, should there
+  /// be any.
+  bool needsEdges(const Cell& cell) const {
+    return (cell.excess <= 1.0 && cell.level < kEdgeCheckLevels) || (cell.excess > 1.0 && !isDeepest(cell));
+  }
+
+  /// Judges cells of one level. @return the parts of those that are not good enough
+  std::vector<std::size_t> judged(const std::vector<std::size_t>& cells) {
     // The middle first: most patches that fail, fail there.
-    double worst = excess(patch, node(u + half, v + half, first), 0.5, 0.5);
-    const bool deepest = level == Map::kDepthLimit[static_cast<std::size_t>(m_face)];
-    if ((worst <= 1.0 && level < kEdgeCheckLevels) || (worst > 1.0 && !deepest)) {
-      // Also the corners of the four parts, should there be any.
-      worst = std::max({worst, excess(patch, node(u + half, v, first), 0.5, 0.0),
-                        excess(patch, node(u, v + half, first), 0.0, 0.5),
-                        excess(patch, node(u + side, v + half, second), 1.0, 0.5),
-                        excess(patch, node(u + half, v + side, third), 0.5, 1.0)});
+    std::vector<const Node*> middles;
+    for (const std::size_t index : cells) {
+      Cell& cell = m_cells[index];
+      const auto [u, v, side] = std::tuple(cell.u, cell.v, cell.side);
+      cell.corners = {node(u, v), node(u + side, v), node(u, v + side), node(u + side, v + side)};
+      middles.push_back(node(u + side / 2, v + side / 2));
     }
-    if (worst <= 1.0 || deepest) {
-      m_statistics.largestError = std::max(m_statistics.largestError, worst * m_source.tolerance);
-      placed.push_back({level, i, j, store(patch, u, v, side, steps)});
-      const int cell = steps / Map::kFineSide;
-      if (m_fine && side >= cell) {
-        const auto metric = [](const Node& at) { return &at.metric; };
-        const Smooth& smooth = m_smooth.emplace_back(Smooth{
-            {u / cell, v / cell, side / cell}, patch, {metric(first), metric(second), metric(third), metric(fourth)}});
-        m_fine->fill(smooth.square, [&](double s, double t) { return evaluate(smooth.patch, s, t); });
+    solveNodes();
+    std::vector<std::array<const Node*, 4>> edges;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      Cell& cell = m_cells[cells[k]];
+      for (Node* corner : cell.corners) {
+        addSlopes(*corner);
+      }
+      cell.patch = patchOver(cell);
+      cell.excess = excess(cell.patch, *middles[k], 0.5, 0.5);
+      if (needsEdges(cell)) {
+        const auto [u, v, side] = std::tuple(cell.u, cell.v, cell.side);
+        edges.push_back(
+            {node(u + side / 2, v), node(u, v + side / 2), node(u + side, v + side / 2), node(u + side / 2, v + side)});
+      }
+    }
+    solveNodes();
+    std::vector<std::size_t> parts;
+    auto edge = edges.begin();
+    for (const std::size_t index : cells) {
+      if (needsEdges(m_cells[index])) {
+        Cell& cell = m_cells[index];
+        const auto& [low, left, right, high] = *edge++;
+        cell.excess = std::max({cell.excess, excess(cell.patch, *low, 0.5, 0.0), excess(cell.patch, *left, 0.0, 0.5),
+                                excess(cell.patch, *right, 1.0, 0.5), excess(cell.patch, *high, 0.5, 1.0)});
+      }
+      if (m_cells[index].excess > 1.0 && !isDeepest(m_cells[index])) {
+        const int half = m_cells[index].side / 2;
+        m_cells[index].firstPart = m_cells.size();
+        for (const int dv : {0, half}) {
+          for (const int du : {0, half}) {
+            parts.push_back(m_cells.size());
+            m_cells.push_back({m_cells[index].u + du, m_cells[index].v + dv, half, m_cells[index].level + 1});
+          }
+        }
+      }
+    }
+    return parts;
+  }
+
+  /// Stores the patches of a cell. @param i, j  of the cell among those of its level in its root
+  void place(const Cell& cell, int i, int j, std::vector<Placed>& placed) {
+    if (cell.firstPart != 0) {
+      for (int part = 0; part < 4; ++part) {
+        place(m_cells[cell.firstPart + static_cast<std::size_t>(part)], 2 * i + part % 2, 2 * j + part / 2, placed);
       }
       return;
     }
-    for (int dj = 0; dj < 2; ++dj) {
-      for (int di = 0; di < 2; ++di) {
-        refine(u + di * half, v + dj * half, half, level + 1, 2 * i + di, 2 * j + dj, placed);
-      }
+    m_statistics.largestError = std::max(m_statistics.largestError, cell.excess * m_source.tolerance);
+    placed.push_back({cell.level, i, j, store(cell)});
+    const int fine = steps() / Map::kFineSide;
+    if (m_fine && cell.side >= fine) {
+      const auto& corners = cell.corners;
+      const Smooth& smooth = m_smooth.emplace_back(
+          Smooth{{cell.u / fine, cell.v / fine, cell.side / fine},
+                 cell.patch,
+                 {&corners[0]->metric, &corners[1]->metric, &corners[2]->metric, &corners[3]->metric}});
+      m_fine->fill(smooth.square, [&](double s, double t) { return evaluate(smooth.patch, s, t); });
     }
   }
 
-  void addRoot(int i, int j) {
-    constexpr int kSide = 1 << (Map::kMaximumDepth + 1);
+  void addRoot(std::size_t root) {
     std::vector<Placed> placed;
-    refine(i * kSide, j * kSide, kSide, 0, 0, 0, placed);
+    place(m_cells[root], 0, 0, placed);
     int depth = 0;
     for (const Placed& patch : placed) {
       depth = std::max(depth, patch.level);
@@ -322,8 +376,8 @@ class Part {
     std::pmr::unordered_map<std::uint64_t, Node> nodes{&memory};
   };
   std::unique_ptr<NodeTable> m_table;
-  Node m_none;  // guesses nothing
-  const Node* m_latest = &m_none;
+  std::vector<Node*> m_unsolved;
+  std::vector<Cell> m_cells;  // roots first
 };
 
 void addLinearCone(const Source& source, Map& map) {

@@ -130,6 +130,14 @@ BandVector DatasetScene::deviation(const Eigen::Vector3d& response) const {
   return piece(response) * response;
 }
 
+Eigen::MatrixXd DatasetScene::deviations(const Eigen::Matrix3Xd& responses) const {
+  Eigen::MatrixXd result(m_deviations.rows(), responses.cols());
+  for (Eigen::Index k = 0; k < responses.cols(); ++k) {
+    result.col(k) = deviation(responses.col(k));
+  }
+  return result;
+}
+
 DatasetScene::Local DatasetScene::local(const Eigen::Vector3d& response) const {
   if (!(response.sum() > 0.0)) {
     return {BandVector::Zero(m_deviations.rows()), BandTriple::Zero(m_deviations.rows(), 3)};

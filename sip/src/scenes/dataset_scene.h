@@ -26,6 +26,8 @@ class DatasetScene {
 
   /// Interpolated spectrum less the smooth one, for a white-normalised response. Zero where its sum is not positive.
   BandVector deviation(const Eigen::Vector3d& response) const;
+  /// Of several responses, a column each.
+  Eigen::MatrixXd deviations(const Eigen::Matrix3Xd& responses) const;
 
   struct Local {
     BandVector value;  ///< the deviation

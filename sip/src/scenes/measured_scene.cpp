@@ -44,12 +44,25 @@ BandVector MeasuredScene::atBands(const Eigen::Ref<const Eigen::VectorXd>& sums)
   return m_bands.atBands(sums) - m_smooth * sums.segment<3>(kNodeCount);
 }
 
-BandVector MeasuredScene::deviation(const Eigen::Vector3d& response) const {
-  if (!isNearSamples(response)) {
-    return BandVector::Zero(m_bands.bandCount());
+Eigen::MatrixXd MeasuredScene::deviations(const Eigen::Matrix3Xd& responses) const {
+  std::vector<Index> near;
+  for (Index k = 0; k < responses.cols(); ++k) {
+    if (isNearSamples(responses.col(k))) {
+      near.push_back(k);
+    }
   }
-  const Chromaticity colour = chromaticityOf(response);
-  return colour.mean * atBands(m_coefficients.of(m_kernel.values(colour.place)));
+  const auto count = static_cast<Index>(near.size());
+  Eigen::MatrixXd kernels(m_kernel.rows(), count);
+  for (Index i = 0; i < count; ++i) {
+    m_kernel.values(chromaticityOf(responses.col(near[static_cast<std::size_t>(i)])).place, kernels.col(i));
+  }
+  const Eigen::MatrixXd sums = m_coefficients.of(kernels);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(m_bands.bandCount(), responses.cols());
+  for (Index i = 0; i < count; ++i) {
+    const Index k = near[static_cast<std::size_t>(i)];
+    result.col(k) = responses.col(k).mean() * atBands(sums.col(i));
+  }
+  return result;
 }
 
 std::optional<MeasuredScene::Mixture> MeasuredScene::mixture(const Eigen::Vector3d& response) const {
@@ -60,10 +73,6 @@ std::optional<MeasuredScene::Mixture> MeasuredScene::mixture(const Eigen::Vector
   return Mixture{colour.mean,
                  m_differences / colour.mean - colour.place * Eigen::RowVector3d::Constant(1.0 / (3.0 * colour.mean)),
                  m_kernel.valuesAndSlopes(colour.place)};
-}
-
-BandVector MeasuredScene::value(const Mixture& mixture) const {
-  return mixture.mean * atBands(m_coefficients.of(mixture.kernel.col(0)));
 }
 
 MeasuredScene::Local MeasuredScene::local(const Mixture& mixture) const {

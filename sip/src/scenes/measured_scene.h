@@ -35,8 +35,9 @@ class MeasuredScene {
   MeasuredScene(const SoftBoundSolver& solver, const Eigen::MatrixXd& reflectances, const Eigen::VectorXd& noise)
       : MeasuredScene(solver, MeasuredSeeds(solver.weights(), reflectances, noise)) {}
 
-  /// P for a white-normalised response.
-  BandVector deviation(const Eigen::Vector3d& response) const;
+  /// P for white-normalised responses, a column each: B x n.
+  Eigen::MatrixXd deviations(const Eigen::Matrix3Xd& responses) const;
+  BandVector deviation(const Eigen::Vector3d& response) const { return deviations(response); }
 
   struct Local {
     BandVector value;  ///< P
@@ -44,7 +45,7 @@ class MeasuredScene {
   };
   Local local(const Eigen::Vector3d& response) const;
 
-  /// How much of each sample a colour takes, and how that changes: what value and slope are summed from.
+  /// How much of each sample a colour takes, and how that changes: what slopes are summed from.
   struct Mixture {
     double mean;                             ///< n
     Eigen::Matrix<double, 2, 3> placeSlope;  ///< dq / dresponse
@@ -53,8 +54,6 @@ class MeasuredScene {
   /// None where P is nothing.
   std::optional<Mixture> mixture(const Eigen::Vector3d& response) const;
   Local local(const Mixture& mixture) const;
-  /// P alone.
-  BandVector value(const Mixture& mixture) const;
 
   /// The samples as `weights` (3 x B) see them, for slopes where no spectrum is asked for.
   WeightedSums seenBy(const Eigen::Matrix3Xd& weights) const;

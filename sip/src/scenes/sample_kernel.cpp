@@ -117,13 +117,17 @@ SampleKernel::SampleKernel(const Eigen::ArrayX2d& places) {
 }
 
 Eigen::VectorXd SampleKernel::values(const Eigen::Vector2d& place) const {
-  Eigen::VectorXd kernel(static_cast<Eigen::Index>(m_x.size()));
-  METAMER_CHOOSE_KERNEL(KernelAt, valuesAt)(m_x.data(), m_y.data(), m_x.size(), place.data(), kernel.data());
+  Eigen::VectorXd kernel(rows());
+  values(place, kernel);
   return kernel;
 }
 
+void SampleKernel::values(const Eigen::Vector2d& place, Eigen::Ref<Eigen::VectorXd> kernel) const {
+  METAMER_CHOOSE_KERNEL(KernelAt, valuesAt)(m_x.data(), m_y.data(), m_x.size(), place.data(), kernel.data());
+}
+
 Eigen::MatrixX3d SampleKernel::valuesAndSlopes(const Eigen::Vector2d& place) const {
-  Eigen::MatrixX3d kernel(static_cast<Eigen::Index>(m_x.size()), 3);
+  Eigen::MatrixX3d kernel(rows(), 3);
   METAMER_CHOOSE_KERNEL(KernelAt, valuesAndSlopesAt)
   (m_x.data(), m_y.data(), m_x.size(), place.data(), kernel.data());
   return kernel;

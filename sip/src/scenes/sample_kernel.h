@@ -15,8 +15,13 @@ class SampleKernel {
   /// @param places  n x 2, in units of the kernel's own length
   explicit SampleKernel(const Eigen::ArrayX2d& places);
 
+  /// Numbers that values() gives.
+  Eigen::Index rows() const { return static_cast<Eigen::Index>(m_x.size()); }
+
   /// Of a finite place; after the n values come up to 7 without a meaning, which fill the last vector.
   Eigen::VectorXd values(const Eigen::Vector2d& place) const;
+  /// @param kernel  out: rows() numbers
+  void values(const Eigen::Vector2d& place, Eigen::Ref<Eigen::VectorXd> kernel) const;
   /// Values, and their derivatives by the place's two coordinates, in three columns; rows as above.
   Eigen::MatrixX3d valuesAndSlopes(const Eigen::Vector2d& place) const;
 

@@ -24,6 +24,11 @@ constexpr std::size_t kMostDoubles = static_cast<std::size_t>(WeightedSums::kPad
 using Double = hn::CappedTag<double, kMostDoubles>;
 using V = hn::VFromD<Double>;
 
+/// Spectra that are added to all sets before the next: they stay in a processor's first cache meanwhile.
+constexpr std::size_t kBlock = 64;
+/// Sets that are summed at once.
+constexpr std::size_t kMostSets = 3;
+
 /// Spectra and weights as they lie in memory.
 struct Sums {
   const double* spectra;  ///< a row a spectrum
@@ -34,16 +39,18 @@ struct Sums {
   double* sums;              ///< `bands` numbers a set
 };
 
-/// Sums from a band on, with as many vectors of bands at a time as there are registers for: every spectrum is then
-/// loaded once for all sets, and the sums do not wait for one another.
+/// Adds to sums from a band on, with as many vectors of bands at a time as there are registers for: every spectrum is
+/// then loaded once for all sets, and the sums do not wait for one another.
 template <std::size_t kSets, std::size_t kTogether>
 HWY_INLINE void sumFrom(const Sums& job, std::size_t band) {
   const Double d;
   const std::size_t lanes = hn::Lanes(d);
   for (; band + kTogether * lanes <= job.bands; band += kTogether * lanes) {
     std::array<std::array<V, kTogether>, kSets> sum;
-    for (auto& ofSet : sum) {
-      ofSet.fill(hn::Zero(d));
+    for (std::size_t set = 0; set < kSets; ++set) {
+      for (std::size_t k = 0; k < kTogether; ++k) {
+        sum[set][k] = hn::LoadU(d, job.sums + set * job.bands + band + k * lanes);
+      }
     }
     const double* row = job.spectra + band;
     for (std::size_t i = 0; i < job.count; ++i, row += job.bands) {
@@ -69,11 +76,8 @@ HWY_INLINE void sumFrom(const Sums& job, std::size_t band) {
   }
 }
 
-/// @param sets  one, two or three
-void sumSets(const double* spectra, std::size_t bands, std::size_t count, const double* weights,
-             std::size_t weightStride, std::size_t sets, double* sums) {
+void sumSome(const Sums& job, std::size_t sets) {
   constexpr bool kHasManyRegisters = HWY_MAX_BYTES == 64;
-  const Sums job{spectra, bands, count, weights, weightStride, sums};
   switch (sets) {
     case 1:
       return sumFrom<1, 11>(job, 0);
@@ -81,6 +85,18 @@ void sumSets(const double* spectra, std::size_t bands, std::size_t count, const 
       return sumFrom < 2, kHasManyRegisters ? 11 : 6 > (job, 0);
     default:
       return sumFrom < 3, kHasManyRegisters ? 6 : 4 > (job, 0);
+  }
+}
+
+/// @param sums  zeros
+void sumSets(const double* spectra, std::size_t bands, std::size_t count, const double* weights,
+             std::size_t weightStride, std::size_t sets, double* sums) {
+  for (std::size_t first = 0; first < count; first += kBlock) {
+    for (std::size_t set = 0; set < sets; set += kMostSets) {
+      sumSome({spectra + first * bands, bands, std::min(kBlock, count - first), weights + set * weightStride + first,
+               weightStride, sums + set * bands},
+              std::min(kMostSets, sets - set));
+    }
   }
 }
 
@@ -104,8 +120,8 @@ WeightedSums::WeightedSums(const Eigen::MatrixXd& spectra)
 }
 
 Eigen::MatrixXd WeightedSums::of(const Eigen::Ref<const Eigen::MatrixXd>& weights) const {
-  assert(weights.rows() >= count() && weights.cols() >= 1 && weights.cols() <= 3);
-  Eigen::MatrixXd sums(m_spectra.rows(), weights.cols());
+  assert(weights.rows() >= count());
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(m_spectra.rows(), weights.cols());
   METAMER_CHOOSE_KERNEL(SumSets, sumSets)
   (m_spectra.data(), static_cast<std::size_t>(m_spectra.rows()), static_cast<std::size_t>(count()), weights.data(),
    static_cast<std::size_t>(weights.outerStride()), static_cast<std::size_t>(weights.cols()), sums.data());

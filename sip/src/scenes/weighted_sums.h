@@ -14,7 +14,7 @@ class WeightedSums {
   explicit WeightedSums(const Eigen::MatrixXd& spectra);
 
   /// `spectra * weights`, a column a set; after the bands come up to kPadding - 1 zeros.
-  /// @param weights  a column a set, one to three; n rows, and any number more that are not looked at
+  /// @param weights  a column a set; n rows, and any number more that are not looked at
   Eigen::MatrixXd of(const Eigen::Ref<const Eigen::MatrixXd>& weights) const;
 
   Eigen::Index bandCount() const { return m_bandCount; }

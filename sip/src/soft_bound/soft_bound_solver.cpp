@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <iterator>
+
+#include "soft_bound/newton_lanes.h"
 
 namespace metamer::sip {
 
@@ -14,43 +16,8 @@ namespace {
 using Eigen::Array4d;
 using Eigen::Index;
 
-/// Newton's method settles in a few rounds, at most about ten; a cap for what cannot be foreseen.
-constexpr int kMostRounds = 60;
-/// A band of no more than this part of the spectrum is zero but for rounding, and as good clamped as free: it may
-/// change sides for ever.
-constexpr double kNothing = 1e-12;
-/// A guess that takes longer is a bad one: far too many bands are let go one a round.
-constexpr int kMostGuessedRounds = 10;
-constexpr int kMostHalvings = 30;
-
 std::size_t at(int band) {
   return static_cast<std::size_t>(band);
-}
-
-ClampedBands belowZero(const BandVector& spectrum) {
-  ClampedBands clamped;
-  for (Index b = 0; b < spectrum.size(); ++b) {
-    clamped[static_cast<std::size_t>(b)] = spectrum[b] < 0.0;
-  }
-  return clamped;
-}
-
-/// Whether the bands that were clamped for a spectrum are those that it has below zero.
-bool holdsFor(const ClampedBands& clamped, const BandVector& spectrum) {
-  const double nothing = kNothing * spectrum.cwiseAbs().maxCoeff();
-  for (Index b = 0; b < spectrum.size(); ++b) {
-    if ((spectrum[b] < 0.0) != clamped[static_cast<std::size_t>(b)] && !(std::abs(spectrum[b]) <= nothing)) {
-      return false;
-    }
-  }
-  return true;
-}
-
-/// Minus the second difference with natural ends.
-double bend(const double* values, int band, int bandCount) {
-  const double left = band > 0 ? values[band] - values[band - 1] : 0.0;
-  const double right = band + 1 < bandCount ? values[band] - values[band + 1] : 0.0;
-  return left + right;
 }
 
 /// A spectrum without clamped bands from the tristimulus: the twice-summed weights, a constant, and four equations.
@@ -169,128 +136,93 @@ SoftBoundSolver::SoftBoundSolver(const Eigen::Matrix3Xd& weights, double relaxat
     m_loadBehind[b] = sum;
   }
   m_unclamped = smoothest(m_weights, m_slack);
+  m_weightRows = m_weights.transpose();
+  m_smoothRows = m_unclamped;
 }
 
-double SoftBoundSolver::objective(const BandVector& spectrum, const BandVector* prior,
-                                  const Eigen::Vector3d& target) const {
-  const Index count = spectrum.size();
-  const BandVector deviation = prior != nullptr ? BandVector(spectrum - *prior) : spectrum;
-  double sum = (deviation.tail(count - 1) - deviation.head(count - 1)).squaredNorm() +
-               m_boundPrice * spectrum.cwiseMin(0.0).squaredNorm();
-  if (m_relaxation > 0.0) {
-    sum += m_relaxation * (target - m_weights * spectrum).squaredNorm();
-  }
-  return sum;
-}
-
-SoftBoundSolver::Solution SoftBoundSolver::solve(const Eigen::Vector3d& tristimulus, const BandVector* prior,
-                                                 const ClampedBands* start) const {
-  const int count = bandCount();
+SoftBoundSolver::Solution SoftBoundSolver::solve(const Eigen::Vector3d& tristimulus, const BandVector* prior) const {
   Solution solution;
-  ClampedBands guess;
-  if (start != nullptr && start->any()) {
-    guess = *start;
-  } else {
-    solution.reflectance = m_unclamped * tristimulus;
-    if (prior != nullptr) {
-      solution.reflectance += *prior;
-    }
-    if (holdsFor(guess, solution.reflectance)) {
-      return solution;
-    }
-    guess = belowZero(solution.reflectance);
-  }
-  const double* p = prior != nullptr ? prior->data() : nullptr;
-  // What the spectrum's own response is held to.
-  Eigen::Vector3d held = tristimulus;
-  if (prior != nullptr && m_slack > 0.0) {
-    held += m_weights * *prior;
-  }
-  const auto bendOfPrior = [&](int b) { return p != nullptr ? bend(p, b, count) : 0.0; };
-  // The loads of the prior's bend sum to its slopes, and all of them to nothing.
-  const auto load = [&](int b) {
-    Array4d lanes = m_load[at(b)];
-    lanes[3] = bendOfPrior(b);
-    return lanes;
-  };
-  const auto upTo = [&](int b) {
-    Array4d lanes = m_loadUpTo[at(b)];
-    lanes[3] = p != nullptr && b + 1 < count ? p[b] - p[b + 1] : 0.0;
-    return lanes;
-  };
-  const auto behind = [&](int b) {
-    Array4d lanes = m_loadBehind[at(b)];
-    lanes[3] = p != nullptr && b > 0 ? p[b] - p[b - 1] : 0.0;
-    return lanes;
-  };
-  bool hasPoint = solution.reflectance.size() > 0;
-  double reached = hasPoint ? objective(solution.reflectance, prior, held) : 0.0;
-  std::array<Array4d, kConvergedBandCount> answers;
-  while (true) {
-    ++solution.rounds;
-    BandVector next(count);
-    if (guess.none()) {
-      next = m_unclamped * tristimulus;
-      if (prior != nullptr) {
-        next += *prior;
-      }
-    } else {
-      const Elimination elimination(*this, guess);
-      elimination.solve(load, upTo, behind, m_loadUpTo[at(count - 1)], answers);
-      std::array<Array4d, 3> sums = {Array4d::Zero(), Array4d::Zero(), Array4d::Zero()};
-      for (int b = 0; b < count; ++b) {
-        const Array4d& weight = m_load[at(b)];
-        for (std::size_t k = 0; k < 3; ++k) {
-          sums[k] += weight[static_cast<Index>(k)] * answers[at(b)];
-        }
-      }
-      Eigen::Matrix3d system;
-      Eigen::Vector3d target = held;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto row = static_cast<Index>(k);
-        system.row(row) = sums[k].head<3>().matrix().transpose();
-        target[row] -= sums[k][3];
-      }
-      system.diagonal().array() += m_slack;
-      // Once more for what is left: lights that hardly tell two channels apart lose half the digits.
-      const Eigen::Matrix3d inverse = system.inverse();
-      Eigen::Vector3d multipliers = inverse * target;
-      multipliers += inverse * (target - system * multipliers);
-      Array4d pull;
-      pull << multipliers.array(), 1.0;
-      for (int b = 0; b < count; ++b) {
-        next[b] = (answers[at(b)] * pull).sum();
-      }
-    }
-    if (holdsFor(guess, next) || solution.rounds == kMostRounds) {
-      solution.reflectance = next;
-      break;
-    }
-    if (start != nullptr && solution.rounds == kMostGuessedRounds) {
-      solution = solve(tristimulus, prior);
-      solution.rounds += kMostGuessedRounds;
-      return solution;
-    }
-    double step = 1.0;
-    if (hasPoint) {
-      const BandVector from = solution.reflectance;
-      const BandVector whole = next;
-      double value = objective(next, prior, held);
-      for (int halving = 0; value > reached && halving < kMostHalvings; ++halving) {
-        step *= 0.5;
-        next = from + step * (whole - from);
-        value = objective(next, prior, held);
-      }
-      reached = value;
-    } else {
-      reached = objective(next, prior, held);
-      hasPoint = true;
-    }
-    solution.reflectance = next;
-    guess = belowZero(next);
-  }
-  solution.clamped = guess;
+  solution.reflectance.resize(bandCount());
+  Problem problem;
+  problem.tristimulus = tristimulus;
+  problem.prior = prior != nullptr ? prior->data() : nullptr;
+  problem.reflectance = solution.reflectance.data();
+  solve(std::span(&problem, 1));
+  solution.clamped = problem.clamped;
+  solution.rounds = problem.rounds;
   return solution;
+}
+
+void SoftBoundSolver::solve(std::span<Problem> problems) const {
+  std::array<std::vector<Problem*>, 2> open;  // without and with a prior
+  for (Problem& problem : problems) {
+    problem.rounds = 0;
+    if (!isSmoothEnough(problem)) {
+      open[problem.prior != nullptr ? 1 : 0].push_back(&problem);
+    }
+  }
+  for (const std::span<Problem* const> alike : open) {
+    for (std::size_t first = 0; first < alike.size(); first += NewtonLanes::kLanes) {
+      solveTogether(alike.subspan(first, std::min(NewtonLanes::kLanes, alike.size() - first)));
+    }
+  }
+}
+
+bool SoftBoundSolver::isSmoothEnough(Problem& problem) const {
+  Eigen::Map<Eigen::VectorXd> spectrum(problem.reflectance, bandCount());
+  spectrum.noalias() = m_unclamped * problem.tristimulus;
+  if (problem.prior != nullptr) {
+    spectrum += Eigen::Map<const Eigen::VectorXd>(problem.prior, bandCount());
+  }
+  problem.clamped.reset();
+  if (spectrum.minCoeff() >= -kNothing * spectrum.cwiseAbs().maxCoeff()) {
+    return true;
+  }
+  for (int b = 0; b < bandCount(); ++b) {
+    problem.clamped[at(b)] = spectrum[b] < 0.0;
+  }
+  return false;
+}
+
+void SoftBoundSolver::fill(NewtonLanes& lanes, std::span<Problem* const> group) const {
+  lanes.hasPrior = group.front()->prior != nullptr;
+  for (std::size_t lane = 0; lane < NewtonLanes::kLanes; ++lane) {
+    lanes.isUsed[lane] = lane < group.size() ? 1.0 : 0.0;
+    // Idle lanes repeat the last problem: what is computed there is not looked at.
+    const Problem& problem = *group[std::min(lane, group.size() - 1)];
+    Eigen::Vector3d held = problem.tristimulus;
+    if (problem.prior != nullptr && m_slack > 0.0) {
+      held += m_weights * Eigen::Map<const Eigen::VectorXd>(problem.prior, bandCount());
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      lanes.tristimulus[k * NewtonLanes::kLanes + lane] = problem.tristimulus[static_cast<Index>(k)];
+      lanes.held[k * NewtonLanes::kLanes + lane] = held[static_cast<Index>(k)];
+    }
+    for (int b = 0; b < bandCount(); ++b) {
+      const std::size_t place = at(b) * NewtonLanes::kLanes + lane;
+      lanes.clamp[place] = problem.reflectance[b] < 0.0 ? m_boundPrice : 0.0;
+      lanes.spectrum[place] = problem.reflectance[b];
+      if (problem.prior != nullptr) {
+        lanes.prior[place] = problem.prior[b];
+      }
+    }
+  }
+}
+
+void SoftBoundSolver::solveTogether(std::span<Problem* const> group) const {
+  NewtonLanes lanes;
+  fill(lanes, group);
+  solveByNewton({bandCount(), m_weightRows.data(), m_smoothRows.data(), m_boundPrice, m_slack, m_relaxation}, lanes,
+                group.size());
+  for (std::size_t lane = 0; lane < group.size(); ++lane) {
+    Problem& problem = *group[lane];
+    problem.rounds = static_cast<int>(lanes.rounds[lane]);
+    for (int b = 0; b < bandCount(); ++b) {
+      const std::size_t place = at(b) * NewtonLanes::kLanes + lane;
+      problem.reflectance[b] = lanes.spectrum[place];
+      problem.clamped[at(b)] = lanes.clamp[place] > 0.0;
+    }
+  }
 }
 
 BandTriple SoftBoundSolver::derivative(const ClampedBands& clamped, const BandTriple* priorSlope) const {

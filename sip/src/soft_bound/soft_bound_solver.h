@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "metamer/sip/band_weights.h"
@@ -14,6 +15,8 @@ using BandVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kConvergedBandCou
 /// Three of them, a column a channel.
 using BandTriple = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kConvergedBandCount, 3>;
 
+struct NewtonLanes;
+
 /// The smooth spectrum that has a given tristimulus, softly bounded below (course notes, section 5.5, its bound made
 /// soft).
 ///
@@ -24,8 +27,7 @@ using BandTriple = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kConvergedBandCou
 ///
 /// With the bands below zero given, the optimality conditions are tridiagonal plus three equations. Newton's method
 /// guesses these bands, solves, and guesses again until they hold, halving steps that do not descend: a convex problem,
-/// piecewise quadratic, so it ends. Free bands before the first clamped one and behind the last only hand their load
-/// on, so that elimination runs between these two alone.
+/// piecewise quadratic, so it ends.
 ///
 /// Immutable after construction, safe to share between threads.
 class SoftBoundSolver {
@@ -45,9 +47,18 @@ class SoftBoundSolver {
   };
   /// @param tristimulus  c, any finite three numbers
   /// @param prior        P, or null for zero; with `weights * P = 0` to rounding where the constraint is exact
-  /// @param start        a guess of the bands below zero; changes the time, not the answer (beyond rounding)
-  Solution solve(const Eigen::Vector3d& tristimulus, const BandVector* prior = nullptr,
-                 const ClampedBands* start = nullptr) const;
+  Solution solve(const Eigen::Vector3d& tristimulus, const BandVector* prior = nullptr) const;
+
+  /// One of several colours to be solved at once, and its answer.
+  struct Problem {
+    Eigen::Vector3d tristimulus = Eigen::Vector3d::Zero();  ///< c
+    const double* prior = nullptr;                          ///< P, B values, or null for zero
+    double* reflectance = nullptr;                          ///< out: R, B values
+    ClampedBands clamped;                                   ///< out
+    int rounds = 0;                                         ///< out
+  };
+  /// Several at once, side by side in the processor's vectors: several times as fast, and the same bits.
+  void solve(std::span<Problem> problems) const;
 
   /// dR / dc where a solution lies, B x 3.
   /// @param priorSlope  dP / dc, B x 3, or null for zero
@@ -62,8 +73,14 @@ class SoftBoundSolver {
  private:
   struct Elimination;
 
-  /// What is minimised, with c - weights * (R - P) for the missed part.
-  double objective(const BandVector& spectrum, const BandVector* prior, const Eigen::Vector3d& target) const;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+  /// Puts the spectrum without clamped bands into `reflectance`, and says whether it is the answer; else which bands it
+  /// has below zero.
+  bool isSmoothEnough(Problem& problem) const;
+  /// By Newton's method from there. @param group  at most NewtonLanes::kLanes, all with a prior or all without
+  void solveTogether(std::span<Problem* const> group) const;
+  void fill(NewtonLanes& lanes, std::span<Problem* const> group) const;
 
   Eigen::Matrix3Xd m_weights;
   std::vector<Eigen::Array4d> m_load;        ///< a band's weights in three lanes, then zero
@@ -73,6 +90,8 @@ class SoftBoundSolver {
   double m_slack;       ///< 1 / relaxation; 0 where the constraint is exact
   double m_relaxation;  ///< 0 where it is exact
   BandTriple m_unclamped;
+  Rows m_weightRows;  ///< the weights, band by band
+  Rows m_smoothRows;  ///< m_unclamped, band by band
 };
 
 }  // namespace metamer::sip

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <variant>
@@ -30,6 +31,8 @@ constexpr double kSampleNoise = 0.2;
 constexpr double kSkinNoise = 0.1;
 /// The skin scene's skins are followed by this much more closely at strength 1.
 constexpr double kSkinSceneFactor = 0.1;
+/// Colours that are solved side by side: enough to fill vectors, few enough for their spectra to stay in the cache.
+constexpr std::size_t kTogether = 64;
 
 /// Scales by a power of two so that the largest component lies in [0.5, 1): the result of a colour and of the same
 /// colour at another exposure then agree to the last bit for whole stops. Zero stays.
@@ -91,24 +94,24 @@ struct SpectralTransform::State {
   WeightedSums seenSamples;     ///< MeasuredScene's, as the relative result sees them
   Diagnostics diagnostics;
 
-  std::optional<BandVector> prior(const Eigen::Vector3d& response) const {
+  /// What the scene adds to the smooth spectra of some responses, a column each; no columns where it adds nothing.
+  Eigen::MatrixXd priors(const Eigen::Matrix3Xd& responses) const {
     return std::visit(
-        [&](const auto& kind) -> std::optional<BandVector> {
-          if constexpr (requires { kind.deviation(response); }) {
-            return kind.deviation(response);
+        [&](const auto& kind) -> Eigen::MatrixXd {
+          if constexpr (requires { kind.deviations(responses); }) {
+            return kind.deviations(responses);
           } else {
-            return std::nullopt;
+            return {};
           }
         },
         scene);
   }
-  SoftBoundSolver::Solution solve(const Eigen::Vector3d& response) const {
-    const std::optional<BandVector> deviation = prior(response);
-    return solver->solve(response, deviation ? &*deviation : nullptr);
-  }
+  /// The spectra of some responses, a column each.
+  /// @param clamped  where not null, an entry a response: the bands that are below zero
+  Eigen::MatrixXd spectra(const Eigen::Matrix3Xd& responses, std::vector<ClampedBands>* clamped = nullptr) const;
   /// The spectral result before any limit.
   Eigen::Vector3d relativeResult(const Eigen::Vector3d& relative, const Eigen::Vector3d& response,
-                                 const BandVector& spectrum) const {
+                                 const Eigen::Ref<const Eigen::VectorXd>& spectrum) const {
     Eigen::Vector3d result = relativeFromSpectrum * spectrum + sides.unseen * relative;
     if (relaxed) {
       result += sides.relativeFromResponse * (response - solver->weights() * spectrum);
@@ -133,24 +136,45 @@ struct SpectralTransform::State {
       seenSamples = measured->seenBy(seen);
     }
   }
-  struct Bent {
-    SoftBoundSolver::Solution solution;
-    Eigen::Matrix3d slope;  ///< of the relative result by the response
-  };
-  /// The spectrum of a response, and how the relative result changes with it.
-  Bent bent(const Eigen::Vector3d& response, const ClampedBands* guess) const;
+  /// How the relative result before any limit changes with the response.
+  Eigen::Matrix3d slopeAt(const Eigen::Vector3d& response, const ClampedBands& clamped) const;
   void setLimits(const std::vector<spectral::DomainSamples>& training);
 };
+
+Eigen::MatrixXd SpectralTransform::State::spectra(const Eigen::Matrix3Xd& responses,
+                                                  std::vector<ClampedBands>* clamped) const {
+  const Eigen::MatrixXd prior = priors(responses);
+  Eigen::MatrixXd spectra(solver->bandCount(), responses.cols());
+  std::vector<SoftBoundSolver::Problem> problems(static_cast<std::size_t>(responses.cols()));
+  for (Eigen::Index k = 0; k < responses.cols(); ++k) {
+    SoftBoundSolver::Problem& problem = problems[static_cast<std::size_t>(k)];
+    problem.tristimulus = responses.col(k);
+    problem.prior = prior.cols() > 0 ? prior.col(k).data() : nullptr;
+    problem.reflectance = spectra.col(k).data();
+  }
+  solver->solve(problems);
+  if (clamped != nullptr) {
+    clamped->clear();
+    for (const SoftBoundSolver::Problem& problem : problems) {
+      clamped->push_back(problem.clamped);
+    }
+  }
+  return spectra;
+}
 
 void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSamples>& training) {
   // The surfaces' true responses, whatever the bands.
   const Eigen::Matrix3Xd weights = sides.inputWeights(kConvergedBandCount);
+  Eigen::Matrix3Xd responses(3, static_cast<Eigen::Index>(training.size()));
+  for (std::size_t k = 0; k < training.size(); ++k) {
+    responses.col(static_cast<Eigen::Index>(k)) = weights * training[k];
+  }
+  const Eigen::MatrixXd reflectances = spectra(responses);
   std::vector<Eigen::Vector3d> colours;
   std::vector<Eigen::Vector3d> differences;
-  for (const spectral::DomainSamples& surface : training) {
-    const Eigen::Vector3d response = weights * surface;
-    colours.emplace_back(sides.relativeFromResponse * response);
-    differences.emplace_back(relativeResult(colours.back(), response, solve(response).reflectance) - colours.back());
+  for (Eigen::Index k = 0; k < responses.cols(); ++k) {
+    colours.emplace_back(sides.relativeFromResponse * responses.col(k));
+    differences.emplace_back(relativeResult(colours.back(), responses.col(k), reflectances.col(k)) - colours.back());
   }
   limiter = Limiter(Limiter::reachFor(colours, differences));
   diagnostics.reachUp = limiter.reach().up;
@@ -164,41 +188,20 @@ void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSampl
       static_cast<double>(limited) / static_cast<double>(std::max<std::size_t>(1, colours.size()));
 }
 
-SpectralTransform::State::Bent SpectralTransform::State::bent(const Eigen::Vector3d& response,
-                                                              const ClampedBands* guess) const {
-  const auto of = [&](const BandVector* prior, const auto& slopeOf) {
-    Bent bent;
-    bent.solution = solver->solve(response, prior, guess);
-    bent.slope = slopeOf(bent.solution.clamped);
-    return bent;
-  };
+Eigen::Matrix3d SpectralTransform::State::slopeAt(const Eigen::Vector3d& response, const ClampedBands& clamped) const {
   if (const auto* measured = std::get_if<MeasuredScene>(&scene)) {
     if (const auto mixture = measured->mixture(response)) {
-      // Without clamped bands the slope needs no spectra; near a colour with some it will.
-      std::optional<MeasuredScene::Local> local;
-      if (guess != nullptr && guess->any()) {
-        local = measured->local(*mixture);
+      if (clamped.none()) {
+        return linearSlope + MeasuredScene::slope(*mixture, seenSamples);
       }
-      const BandVector prior = local ? local->value : measured->value(*mixture);
-      return of(&prior, [&](const ClampedBands& clamped) -> Eigen::Matrix3d {
-        if (clamped.none()) {
-          return linearSlope + MeasuredScene::slope(*mixture, seenSamples);
-        }
-        if (!local) {
-          local = measured->local(*mixture);
-        }
-        return relativeSlope(solver->derivative(clamped, &local->slope));
-      });
+      const BandTriple priorSlope = measured->local(*mixture).slope;
+      return relativeSlope(solver->derivative(clamped, &priorSlope));
     }
   } else if (const auto* dataset = std::get_if<DatasetScene>(&scene)) {
-    const DatasetScene::Local local = dataset->local(response);
-    return of(&local.value, [&](const ClampedBands& clamped) -> Eigen::Matrix3d {
-      return relativeSlope(solver->derivative(clamped, &local.slope));
-    });
+    const BandTriple priorSlope = dataset->local(response).slope;
+    return relativeSlope(solver->derivative(clamped, &priorSlope));
   }
-  return of(nullptr, [&](const ClampedBands& clamped) -> Eigen::Matrix3d {
-    return clamped.none() ? linearSlope : relativeSlope(solver->derivative(clamped));
-  });
+  return clamped.none() ? linearSlope : relativeSlope(solver->derivative(clamped));
 }
 
 SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount, SceneCache* cache) {
@@ -238,47 +241,99 @@ SpectralTransform::SpectralTransform(SpectralTransform&&) noexcept = default;
 SpectralTransform& SpectralTransform::operator=(SpectralTransform&&) noexcept = default;
 
 Eigen::Vector3d SpectralTransform::apply(const Eigen::Vector3d& rgb) const {
-  if (m_state->identity || !rgb.allFinite() || rgb.isZero(0.0)) {
-    return rgb;
+  Eigen::Vector3d result = rgb;
+  apply(std::span(&result, 1));
+  return result;
+}
+
+void SpectralTransform::apply(std::span<Eigen::Vector3d> colours) const {
+  std::array<Point, kTogether> points;
+  for (std::size_t first = 0; first < colours.size(); first += kTogether) {
+    const std::size_t count = std::min(kTogether, colours.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      points[k].rgb = colours[first + k];
+    }
+    solveTogether(std::span(points).first(count));
+    for (std::size_t k = 0; k < count; ++k) {
+      colours[first + k] = points[k].value;
+    }
   }
-  const double scale = exposureScale(rgb);
-  const Eigen::Vector3d scaled = scale * rgb;
-  const Eigen::Vector3d response = m_state->sides.responseFromRgb * scaled;
-  const Eigen::Vector3d relative = m_state->sides.relativeFromRgb * scaled;
-  const Eigen::Vector3d difference =
-      m_state->relativeResult(relative, response, m_state->solve(response).reflectance) - relative;
-  return m_state->sides.rgbFromRelative * m_state->limiter.apply(relative, difference) / scale;
+}
+
+void SpectralTransform::solve(std::span<Point> points) const {
+  for (std::size_t first = 0; first < points.size(); first += kTogether) {
+    solveTogether(points.subspan(first, std::min(kTogether, points.size() - first)));
+  }
+}
+
+void SpectralTransform::solveTogether(std::span<Point> points) const {
+  std::vector<Point*> solved;
+  for (Point& point : points) {
+    point.value = point.rgb;
+    point.clamped.reset();
+    point.difference.setZero();
+    if (!m_state->identity && point.rgb.allFinite() && !point.rgb.isZero(0.0)) {
+      solved.push_back(&point);
+    }
+  }
+  const Sides& sides = m_state->sides;
+  Eigen::Matrix3Xd responses(3, static_cast<Eigen::Index>(solved.size()));
+  for (std::size_t k = 0; k < solved.size(); ++k) {
+    responses.col(static_cast<Eigen::Index>(k)) =
+        sides.responseFromRgb * (exposureScale(solved[k]->rgb) * solved[k]->rgb);
+  }
+  std::vector<ClampedBands> clamped;
+  const Eigen::MatrixXd reflectances = m_state->spectra(responses, &clamped);
+  for (std::size_t k = 0; k < solved.size(); ++k) {
+    Point& point = *solved[k];
+    const auto column = static_cast<Eigen::Index>(k);
+    const double scale = exposureScale(point.rgb);
+    const Eigen::Vector3d relative = sides.relativeFromRgb * (scale * point.rgb);
+    point.difference = m_state->relativeResult(relative, responses.col(column), reflectances.col(column)) - relative;
+    point.value = sides.rgbFromRelative * m_state->limiter.apply(relative, point.difference) / scale;
+    point.clamped = clamped[k];
+  }
 }
 
 void SpectralTransform::apply(std::span<float> rgba) const {
   spectral::requirePixels(static_cast<std::int64_t>(rgba.size()));
-  for (std::size_t i = 0; i < rgba.size(); i += 4) {
-    Eigen::Map<Eigen::Vector3f> pixel(rgba.data() + i);
-    const Eigen::Vector3d result = apply(Eigen::Vector3d(pixel.cast<double>()));
-    pixel = result.cast<float>();
+  std::array<Eigen::Vector3d, kTogether> colours;
+  for (std::size_t first = 0; first < rgba.size(); first += 4 * kTogether) {
+    const std::span<float> some = rgba.subspan(first, std::min(4 * kTogether, rgba.size() - first));
+    const std::size_t count = some.size() / 4;
+    for (std::size_t k = 0; k < count; ++k) {
+      colours[k] = Eigen::Map<const Eigen::Vector3f>(some.data() + 4 * k).cast<double>();
+    }
+    apply(std::span(colours).first(count));
+    for (std::size_t k = 0; k < count; ++k) {
+      Eigen::Map<Eigen::Vector3f>(some.data() + 4 * k) = colours[k].cast<float>();
+    }
   }
 }
 
-SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vector3d& rgb,
-                                                              const ClampedBands* guess) const {
-  if (m_state->identity || !rgb.allFinite()) {
-    return {rgb, Eigen::Matrix3d::Identity(), {}, false};
+Eigen::Matrix3d SpectralTransform::slopeAt(const Point& point) const {
+  if (m_state->identity || !point.rgb.allFinite()) {
+    return Eigen::Matrix3d::Identity();
   }
   const State& state = *m_state;
-  const double scale = rgb.isZero(0.0) ? 1.0 : exposureScale(rgb);
-  const Eigen::Vector3d scaled = scale * rgb;
-  const Eigen::Vector3d response = state.sides.responseFromRgb * scaled;
-  const Eigen::Vector3d relative = state.sides.relativeFromRgb * scaled;
-  const auto [solution, slope] = state.bent(response, guess);
-  const Eigen::Vector3d difference = state.relativeResult(relative, response, solution.reflectance) - relative;
-  const Eigen::Matrix3d differenceSlope = slope * state.sides.responseFromRgb - state.sides.relativeFromRgb;
-  const Limiter::Limited limited = state.limiter.limited(relative, difference);
-  Linearisation local;
-  local.clamped = solution.clamped;
-  local.isLimited = !state.limiter.keeps(relative, difference);
-  local.matrix = state.sides.rgbFromRelative *
-                 (limited.byColour * state.sides.relativeFromRgb + limited.byDifference * differenceSlope);
-  local.value = state.sides.rgbFromRelative * limited.value / scale;
+  const Eigen::Vector3d scaled = (point.rgb.isZero(0.0) ? 1.0 : exposureScale(point.rgb)) * point.rgb;
+  const Eigen::Matrix3d differenceSlope =
+      state.slopeAt(state.sides.responseFromRgb * scaled, point.clamped) * state.sides.responseFromRgb -
+      state.sides.relativeFromRgb;
+  const Limiter::Limited limited = state.limiter.limited(state.sides.relativeFromRgb * scaled, point.difference);
+  return state.sides.rgbFromRelative *
+         (limited.byColour * state.sides.relativeFromRgb + limited.byDifference * differenceSlope);
+}
+
+SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vector3d& rgb) const {
+  Point point;
+  point.rgb = rgb;
+  solveTogether(std::span(&point, 1));
+  Linearisation local{point.value, slopeAt(point), point.clamped, false};
+  if (!m_state->identity && rgb.allFinite() && !rgb.isZero(0.0)) {
+    local.isLimited =
+        !m_state->limiter.keeps(m_state->sides.relativeFromRgb * (exposureScale(rgb) * rgb), point.difference);
+  }
   return local;
 }
 
@@ -287,7 +342,7 @@ Eigen::VectorXd SpectralTransform::reflectance(const Eigen::Vector3d& rgb) const
     return Eigen::VectorXd::Zero(bandCount());
   }
   const double scale = rgb.isZero(0.0) ? 1.0 : exposureScale(rgb);
-  return m_state->solve(m_state->sides.responseFromRgb * (scale * rgb)).reflectance / scale;
+  return m_state->spectra(m_state->sides.responseFromRgb * (scale * rgb)) / scale;
 }
 
 bool SpectralTransform::isIdentity() const {

@@ -59,5 +59,30 @@ TEST_F(InstructionSetsTest, EachGivesTheSameBits) {
   EXPECT_GE(count, 1);
 }
 
+// The engine's too, for colours with clamped bands in any company.
+TEST_F(InstructionSetsTest, EachSolvesToTheSameBits) {
+  const SpectralTransform transform(naturalSpecOf("HP1", "D65"), 81);
+  std::vector<Eigen::Vector3d> given;
+  for (int i = 0; i < 101; ++i) {
+    given.emplace_back(std::sin(0.7 * i) + 0.9, std::sin(1.9 * i) + 0.9, std::sin(3.1 * i) + 0.9);
+  }
+  std::vector<Eigen::Vector3d> expected;
+  for (const Eigen::Vector3d& colour : given) {
+    expected.push_back(transform.apply(colour));
+  }
+  const std::int64_t all = instructionSets();
+  for (int bit = 0; bit < 63; ++bit) {
+    if ((all >> bit & 1) == 0) {
+      continue;
+    }
+    allowInstructionSets(std::int64_t{1} << bit);
+    std::vector<Eigen::Vector3d> result = given;
+    transform.apply(result);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      ASSERT_EQ(result[i], expected[i]) << "set " << bit << ", colour " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace metamer::sip

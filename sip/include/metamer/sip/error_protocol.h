@@ -63,6 +63,9 @@ class ErrorProtocol {
   const SpectralTransform& converged() const { return m_converged; }
 
  private:
+  /// What a transform makes of the probes.
+  std::vector<Eigen::Vector3d> resultsOf(const SpectralTransform& transform) const;
+
   /// Where a probe errs most.
   struct Peak {
     double error = 0;
