@@ -18,9 +18,6 @@
 namespace metamer::lutgen {
 namespace {
 
-/// A CLF stands for linear pixels of any exposure that its curve holds: finer than the cube of a grading program.
-constexpr int kClfSize = 65;
-
 struct BakeArguments {
   std::string recipe;
   std::string output;
@@ -28,6 +25,7 @@ struct BakeArguments {
   std::string shaper;
   int size = 0;
   bool sampled = false;
+  std::string certify = "quick";
   bool inverse = false;
   std::optional<double> tolerance;
   std::vector<int> stops;
@@ -58,14 +56,14 @@ sip::Recipe recipeOf(const BakeArguments& arguments, const spectral::DataLibrary
   return recipe;
 }
 
-ocio::BakeOptions optionsOf(const BakeArguments& arguments, const ocio::LutFormat& format) {
+ocio::BakeOptions optionsOf(const BakeArguments& arguments) {
   ocio::BakeOptions options;
-  const bool needsSize = arguments.size == 0 && format.extension == ".clf" && !arguments.tolerance;
-  options.size = needsSize ? kClfSize : arguments.size;
+  options.size = arguments.size;
   if (!arguments.shaper.empty()) {
     options.shaper = ocio::shaperFromName(arguments.shaper);
   }
   options.fitted = !arguments.sampled;
+  options.fullCertificate = arguments.certify == "full";
   options.tolerance = arguments.tolerance;
   if (!arguments.stops.empty()) {
     options.lowestStop = arguments.stops[0];
@@ -118,7 +116,7 @@ void bake(const BakeArguments& arguments) {
   }
   const auto library = spectral::DataLibrary::openDefault();
   const sip::Recipe recipe = recipeOf(arguments, library);
-  const ocio::BakeOptions options = optionsOf(arguments, format);
+  const ocio::BakeOptions options = optionsOf(arguments);
   if (arguments.toStdout) {
     const ocio::BakedText baked = ocio::bakeText(recipe, library, format.name, options);
     note(baked.certificate.notes);
@@ -153,6 +151,12 @@ void addBake(CLI::App& application) {
                    "Nodes along a side; 33 for .cube, 65 for others by default; the most where there is a tolerance")
       ->check(CLI::Range(ocio::kSmallestTable, ocio::kLargestTable));
   command->add_flag("--inverse", arguments->inverse, "Refused: says why, and what does it in its place");
+  command
+      ->add_option(
+          "--certify", arguments->certify,
+          "quick, or full: four times the probes, and the error on measured surfaces left out of the scene, beside "
+          "plain adaptation and a root polynomial")
+      ->check(CLI::IsMember({"quick", "full"}));
   command->add_flag("--sampled", arguments->sampled, "Nodes are the transform's values, not solved for least error");
   command
       ->add_option("--tolerance", arguments->tolerance,

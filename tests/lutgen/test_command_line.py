@@ -195,6 +195,16 @@ class Bake(LutgenTest):
         self.assertEqual([c["transform"]["nodes"] for c in (fitted, sampled)], ["fitted", "sampled"])
         self.assertLess(fitted["error"]["p99"], sampled["error"]["p99"])
 
+    def test_a_full_certificate_knows_the_truth(self):
+        run = lutgen("bake", *DAY_TO_TUNGSTEN, "--size", "9", "--certify", "full", "-o", "a.cube", folder=self.folder)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        certificate = json.loads((self.folder / "a.cube.json").read_text())
+        for surfaces in certificate["surfaces"]["sets"]:
+            self.assertLess(surfaces["engine"], surfaces["plain_adaptation"], surfaces["set"])
+        self.assertIn("measured surfaces that it does not know", (self.folder / "a.cube").read_text())
+        self.assertGreater(certificate["error"]["count"], 40000)
+        self.assertEqual(lutgen("bake", *DAY_TO_TUNGSTEN, "--certify", "most", "-o", "b.cube", folder=self.folder).returncode, 2)
+
     def test_what_is_large_is_said_at_once(self):
         run = lutgen("bake", "--illuminant-in", "FL11", "--illuminant-out", "D65", "--adaptation", "1", "--size", "9", "-o",
                      self.folder / "a.ctf")

@@ -120,7 +120,7 @@ class Comparer {
     };
     const ocio::ComparedTransform a = transformOf(m_arguments.a, recipeA, recipeB);
     const ocio::ComparedTransform b = transformOf(m_arguments.b, recipeB, recipeA);
-    m_space = a.spec ? a.space : b.spec ? b.space : a.kind != "look" ? a.space : b.space;
+    m_space = ocio::comparisonSpace(a, b);
     CompareReport report{a.kind,
                          m_arguments.a,
                          b.kind,

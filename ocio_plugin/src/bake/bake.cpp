@@ -68,6 +68,9 @@ class Baking {
     m_certificate = newCertificate(recipe, library, m_prepared, *m_protocol);
     m_certificate.probes = m_probes;
     m_certificate.brightening = m_pixels->brightening();
+    if (options.fullCertificate) {
+      m_certificate.surfaces = sip::heldOutErrors(m_prepared.spec, library, parallelFor);
+    }
     choose();
   }
 
@@ -122,7 +125,7 @@ void Baking::choose() {
     return;
   }
   BakeOptions tried = m_options;
-  const int largest = m_options.size != 0 ? tableSize(m_options, usual) : kLargestUsual;
+  const int largest = m_options.size != 0 ? tableSize(m_options, usual, m_format) : kLargestUsual;
   m_certificate.choice =
       climb(rungsOf(m_format.content, holdsChain(m_format), largest), *m_options.tolerance, [&](const Rung& rung) {
         tried.size = rung.size;
@@ -206,7 +209,7 @@ std::string convertedLuts(const std::vector<std::filesystem::path>& luts, const 
   }
   const auto resolved = OCIO::Config::CreateRaw()->getProcessor(group)->createGroupTransform();
   description.id = "metamer-" + sha256(description.name).substr(0, 16);
-  return lutText(format, resolved, tableSize(options, Representation::LogCube), description, shaperSize);
+  return lutText(format, resolved, tableSize(options, Representation::LogCube, format), description, shaperSize);
 }
 
 }  // namespace metamer::ocio

@@ -49,7 +49,7 @@ Prepared prepare(const sip::Recipe& recipe, const spectral::DataLibrary& library
   return {std::move(space), std::move(spec), std::move(transform)};
 }
 
-int tableSize(const BakeOptions& options, Representation representation) {
+int tableSize(const BakeOptions& options, Representation representation, const LutFormat& format) {
   if (options.size != 0) {
     spectral::requireWithin("size", options.size, kSmallestTable, kLargestTable);
   }
@@ -58,7 +58,8 @@ int tableSize(const BakeOptions& options, Representation representation) {
     case Representation::Matrix:
       return 0;
     case Representation::LogCube:
-      return options.size != 0 ? options.size : kCubeSize;
+      // A CLF stands for linear pixels of any exposure that its curve holds: finer than the cube of a grading program.
+      return options.size != 0 ? options.size : format.extension == ".clf" ? kChainSize : kCubeSize;
     case Representation::ExposureInvariantChain:
       return options.size != 0 ? options.size : kChainSize;
   }
@@ -82,6 +83,10 @@ sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& pr
     }
     probes = signalProbes(cubeEncoding(space, options));
   }
+  if (options.fullCertificate) {
+    probes.chromaticityCount *= 4;
+    probes.ringCount *= 4;
+  }
   probes.lowestStop = options.lowestStop.value_or(probes.lowestStop);
   probes.highestStop = options.highestStop.value_or(probes.highestStop);
   if (probes.lowestStop > probes.highestStop || probes.lowestStop < -sip::kMostStops ||
@@ -103,7 +108,7 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
   certificate.fitted = options.fitted;
   certificate.negativesKept = format.holdsNegatives;
   certificate.prelutSize = 0;
-  certificate.size = tableSize(options, isCube ? Representation::LogCube : representation);
+  certificate.size = tableSize(options, isCube ? Representation::LogCube : representation, format);
   if (!isCube && representation != Representation::LogCube) {
     return {space.wrapped(engineOperators(representation, prepared.spec, prepared.transform, certificate.size)),
             space.fromEngine, space.toEngine};

@@ -20,7 +20,7 @@ struct Prepared {
 Prepared prepare(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options);
 
 /// Nodes along a side: what was asked for, else what is usual. @throws spectral::InputError out of range
-int tableSize(const BakeOptions& options, Representation representation);
+int tableSize(const BakeOptions& options, Representation representation, const LutFormat& format);
 
 /// Whether a format has operators for the exposure-invariant chain.
 bool holdsChain(const LutFormat& format);

@@ -218,6 +218,19 @@ std::string Certificate::json() const {
         {"folds", rounded(folds)}}},
       {"policy",
        {{"negatives", policy.negatives}, {"out_of_range", policy.outOfRange}, {"not_a_number", policy.notANumber}}}};
+  if (!surfaces.empty()) {
+    Json sets = Json::array();
+    for (const sip::HeldOutSet& set : surfaces) {
+      sets.push_back({{"set", set.name},
+                      {"count", set.count},
+                      {"engine", rounded(set.engine, 3)},
+                      {"plain_adaptation", rounded(set.adaptation, 3)},
+                      {"root_polynomial", rounded(set.rootPolynomial, 3)}});
+    }
+    document["surfaces"] = {{"metric", "mean CIEDE2000"},
+                            {"against", "the spectra themselves, each set left out of the scene"},
+                            {"sets", sets}};
+  }
   if (!notes.empty()) {
     document["notes"] = notes;
   }
@@ -260,6 +273,23 @@ std::vector<std::string> Certificate::lines() const {
                   "pixels of noisy photographs, lights and beyond: off by %.3f of their size at p99.9, %.3f at most; "
                   "photographs by %.2f display codes at p99, noisy ones by %.2f",
                   pixels.p999, pixels.largest, pixels.photographCodes, pixels.noisyCodes);
+    result.emplace_back(text.data());
+  }
+  if (!surfaces.empty()) {
+    double engine = 0.0;
+    double adaptation = 0.0;
+    double polynomial = 0.0;
+    const double share = 1.0 / static_cast<double>(surfaces.size());
+    for (const sip::HeldOutSet& set : surfaces) {
+      engine += share * set.engine;
+      adaptation += share * set.adaptation;
+      polynomial += share * set.rootPolynomial;
+    }
+    std::array<char, 200> text{};
+    std::snprintf(text.data(), text.size(),
+                  "measured surfaces that it does not know: off the truth by %.2f, plain adaptation by %.2f, a root "
+                  "polynomial by %.2f",
+                  engine, adaptation, polynomial);
     result.emplace_back(text.data());
   }
   if (choice) {

@@ -170,6 +170,10 @@ ComparedTransform onSpace(const ComparedTransform& transform, const spectral::Rg
   return result;
 }
 
+const spectral::RgbSpace& comparisonSpace(const ComparedTransform& a, const ComparedTransform& b) {
+  return a.spec || (!b.spec && a.kind != "look") ? a.space : b.space;
+}
+
 sip::Comparison compareTransforms(const ComparedTransform& a, const ComparedTransform& b,
                                   const spectral::RgbSpace& space, const spectral::DataLibrary& library) {
   sip::ErrorProtocol::Options options = a.probes;

@@ -21,18 +21,21 @@ std::vector<spectral::DomainSamples> onDomain(const spectral::ReflectanceSet& se
   return samples;
 }
 
-std::vector<spectral::DomainSamples> measuredSurfaces(const spectral::DataLibrary& library) {
+bool hasTwin(const std::vector<spectral::DomainSamples>& samples, const spectral::DomainSamples& sample) {
   constexpr double kTwinSquares = kTwinRms * kTwinRms * spectral::kDomainSize;
+  return std::any_of(samples.begin(), samples.end(), [&](const spectral::DomainSamples& other) {
+    return (other - sample).squaredNorm() < kTwinSquares;
+  });
+}
+
+std::vector<spectral::DomainSamples> measuredSurfaces(const spectral::DataLibrary& library) {
   std::vector<spectral::DomainSamples> surfaces;
   for (const std::string& name : library.reflectanceSetNames()) {
     if (name == kModelSkins) {
       continue;
     }
     for (const spectral::DomainSamples& sample : onDomain(library.reflectances(name))) {
-      const bool isTwin = std::any_of(surfaces.begin(), surfaces.end(), [&](const spectral::DomainSamples& earlier) {
-        return (earlier - sample).squaredNorm() < kTwinSquares;
-      });
-      if (!isTwin) {
+      if (!hasTwin(surfaces, sample)) {
         surfaces.push_back(sample);
       }
     }

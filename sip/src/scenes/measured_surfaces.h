@@ -10,8 +10,10 @@ namespace metamer::sip {
 /// The samples of a set on the integration domain.
 std::vector<spectral::DomainSamples> onDomain(const spectral::ReflectanceSet& set);
 
-/// All measured reflectances of the library, in the order of its tables, less twins: a sample within an rms of 0.02 of
-/// an earlier one is the same paint measured again.
+/// Whether a sample is within an rms of 0.02 of one of some: the same paint measured again.
+bool hasTwin(const std::vector<spectral::DomainSamples>& samples, const spectral::DomainSamples& sample);
+
+/// All measured reflectances of the library, in the order of its tables, less twins of earlier ones.
 std::vector<spectral::DomainSamples> measuredSurfaces(const spectral::DataLibrary& library);
 
 /// The library's modelled skins.

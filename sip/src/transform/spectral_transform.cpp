@@ -367,6 +367,10 @@ Eigen::Matrix3d SpectralTransform::responseFromRgb() const {
 Eigen::Matrix3d SpectralTransform::rgbFromOutputResponse() const {
   return m_state->sides.rgbFromOutputResponse;
 }
+Eigen::Matrix3d SpectralTransform::plainAdaptation() const {
+  return m_state->identity ? Eigen::Matrix3d::Identity()
+                           : Eigen::Matrix3d(m_state->sides.rgbFromRelative * m_state->sides.relativeFromRgb);
+}
 Eigen::Vector3d SpectralTransform::whiteXyz() const {
   return m_state->space.whiteXyz();
 }

@@ -19,8 +19,8 @@ namespace metamer::ocio {
 struct BakeOptions {
   /// Empty: Identity where the recipe does nothing, else what the format holds best.
   std::optional<Representation> representation = {};
-  /// Nodes along a side, kSmallestTable ... kLargestTable (log_cube.h); 0: 65 for a chain, 33 for a cube. The most,
-  /// where there is a tolerance.
+  /// Nodes along a side, kSmallestTable ... kLargestTable (log_cube.h); 0: 65 for a chain and for .clf, 33 for other
+  /// cubes. The most, where there is a tolerance.
   int size = 0;
   bool fitted = true;                                ///< tables solved for least error; false: the transform's values
   std::optional<spectral::LogEncoding> shaper = {};  ///< of cubes of a linear space; empty: ACEScct
@@ -32,6 +32,9 @@ struct BakeOptions {
   /// -7 ... +7 or as far as the signal goes.
   std::optional<int> lowestStop = {};
   std::optional<int> highestStop = {};
+  /// Probes four times as many, and the error on measured surfaces whose spectra are known, left out set by set, beside
+  /// plain adaptation's and a root polynomial's: about a second more.
+  bool fullCertificate = false;
   /// Entries of the curve in front of a table, in formats that have one, as lutText() takes them; 0: their usual
   /// number.
   int shaperSize = 0;

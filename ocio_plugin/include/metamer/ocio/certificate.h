@@ -8,6 +8,7 @@
 #include "metamer/ocio/pixel_protocol.h"
 #include "metamer/ocio/representation.h"
 #include "metamer/sip/error_protocol.h"
+#include "metamer/sip/held_out.h"
 #include "metamer/sip/recipe.h"
 
 namespace metamer::ocio {
@@ -51,6 +52,8 @@ struct Certificate {
   PixelProtocol::Report pixels;      ///< against the engine that made it; of no pixels where it was not measured
   double brightening = 0;            ///< the engine's luminance out over in at saturated lights, over white's, at most
   sip::SpectralTransform::Diagnostics diagnostics;
+  std::vector<sip::HeldOutSet>
+      surfaces;        ///< against the truth, beside simpler transforms; empty where it was not asked
   double folds = 0;    ///< share of the probes where the map of chromaticities turns over (negative Jacobian)
   double gain = 0;     ///< largest singular value of the transform's derivative at the probes
   std::string sha256;  ///< of the written file; empty for a transform that is not a file

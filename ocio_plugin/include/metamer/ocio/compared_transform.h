@@ -56,6 +56,9 @@ ComparedTransform comparedLook(const std::string& config, const std::string& loo
 ComparedTransform onSpace(const ComparedTransform& transform, const spectral::RgbSpace& space,
                           const spectral::DataLibrary& library);
 
+/// The linear space to compare two transforms in: a recipe's before a LUT file's before a look's.
+const spectral::RgbSpace& comparisonSpace(const ComparedTransform& a, const ComparedTransform& b);
+
 /// The error protocol's probes for two transforms: of the recipe where one is one (the first), else of a D65 pipeline
 /// in `space`; over the exposures and gamut that both are made for.
 /// @param space  linear; both transforms are on it

@@ -115,6 +115,8 @@ class SpectralTransform {
   /// RGB from the output pipeline's response (of PreparedPipeline, before any reflectance is guessed): what a scene
   /// known by its spectra should become.
   Eigen::Matrix3d rgbFromOutputResponse() const;
+  /// What plain chromatic adaptation would do, on RGB: what the transform keeps near to.
+  Eigen::Matrix3d plainAdaptation() const;
   /// White of the working space, Y = 1.
   Eigen::Vector3d whiteXyz() const;
 

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/sip/held_out.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "sip/sip_fixture.h"
+
+namespace metamer::sip {
+namespace {
+
+const HeldOutSet& named(const std::vector<HeldOutSet>& sets, const std::string& name) {
+  for (const HeldOutSet& set : sets) {
+    if (set.name == name) {
+      return set;
+    }
+  }
+  throw std::runtime_error("no set " + name);
+}
+
+TEST(HeldOutTest, EverySetIsNearerThanByPlainAdaptation) {
+  const auto& library = testLibrary();
+  const auto sets = heldOutErrors(naturalSpecOf("D65", "A"), library);
+  EXPECT_EQ(sets.size(), library.reflectanceSetNames().size());
+  for (const HeldOutSet& set : sets) {
+    EXPECT_EQ(set.count, library.reflectances(set.name).samples.size());
+    EXPECT_LT(set.engine, set.adaptation) << set.name;
+    EXPECT_GT(set.engine, 0.1) << set.name << ": a set that is left out is not known";
+  }
+  // From A to D65 by root polynomials of ordinary least squares, published for cameras: between one and two on charts.
+  EXPECT_NEAR(named(sets, "tm30").rootPolynomial, 1.5, 0.5);
+}
+
+TEST(HeldOutTest, SmoothLeavesNothingOut) {
+  // Without a scene, what is held out changes the limits alone, which ordinary surfaces do not meet.
+  const TransformSpec spec = specOf("D65", "A");
+  TransformSpec all = spec;
+  all.training = naturalSpecOf("D65", "A").training;
+  const auto sets = heldOutErrors(all, testLibrary());
+  EXPECT_GT(named(sets, "skin").engine, named(heldOutErrors(naturalSpecOf("D65", "A"), testLibrary()), "skin").engine);
+}
+
+TEST(HeldOutTest, NothingToJudgeWhereNothingIsDone) {
+  EXPECT_TRUE(heldOutErrors(naturalSpecOf("D65", "D65"), testLibrary()).empty());
+}
+
+}  // namespace
+}  // namespace metamer::sip
