@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Regenerate the measured tables in data/ from pinned registry packages.
 
-Needs Python 3.11 or newer with colour-science 0.4.7, lighting-filters 0.1.1 and
-scikit-image 0.26.0 installed. The output is the same byte for byte on every run.
+Needs Python 3.11 or newer with colour-science 0.4.7, lighting-filters 0.1.1,
+scikit-image 0.26.0 and mne 1.13.2 installed. The output is the same byte for byte on every run.
 """
 
 from __future__ import annotations
@@ -22,11 +22,22 @@ from data_export.pixels import PACKAGE as PICTURES
 from data_export.pixels import pixel_table
 from data_export.reflectances import reflectance_tables
 from data_export.rgb_spaces import rgb_space_table
+from data_export.skin import skin_tables
 from data_export.table import Table
 
 ROOT = Path(__file__).resolve().parent.parent
-PINNED = {"colour-science": "0.4.7", "lighting-filters": "0.1.1"}
-GROUPS = ("illuminants", "daylight_basis", "observers", "filters", "reflectances", "rgb_spaces", "pixels")
+PINNED = {"colour-science": "0.4.7", "lighting-filters": "0.1.1", "mne": "1.13.2"}
+GROUPS = (
+    "illuminants",
+    "daylight_basis",
+    "observers",
+    "filters",
+    "reflectances",
+    "rgb_spaces",
+    "pixels",
+    "chromophores",
+    "skin_prior",
+)
 
 
 def check_names(tables: list[Table]) -> None:
@@ -53,6 +64,7 @@ def build() -> list[Table]:
             *reflectance_tables(colour),
             rgb_space_table(colour),
             pixel_table(colour),
+            *skin_tables(),
         ]
     check_names(tables)
     return sorted(tables, key=lambda t: (GROUPS.index(t.group), t.file))
@@ -69,7 +81,7 @@ def licence_texts() -> dict[str, bytes]:
     out = {}
     for package in PINNED:
         files = metadata.files(package) or []
-        found = [f for f in files if ".dist-info" in str(f) and f.name == "LICENSE"]
+        found = [f for f in files if ".dist-info" in str(f) and f.name in ("LICENSE", "LICENSE.txt")]
         if len(found) != 1:
             raise ValueError(f"{package}: one licence text expected, found {len(found)}")
         text = Path(found[0].locate()).read_text(encoding="utf-8")

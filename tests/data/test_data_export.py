@@ -19,7 +19,14 @@ from pathlib import Path
 
 from tables import DATA, find, load_manifest, PINNED, read_table, SCRIPT, SPACES
 
-HAND_WRITTEN = {"README.md", "words.json", "sources/camera_fits.json", "sources/model_skins_100.csv"}
+HAND_WRITTEN = {
+    "README.md",
+    "words.json",
+    "sources/camera_fits.json",
+    "sources/chromophore_fits.json",
+    "sources/model_skins_100.csv",
+    "sources/skin_prior.json",
+}
 QUANTITIES = {
     "illuminants": "spectral power distribution",
     "daylight_basis": "spectral power distribution",
@@ -28,8 +35,10 @@ QUANTITIES = {
     "reflectances": "reflectance",
     "rgb_spaces": "chromaticity",
     "pixels": "linear ACEScg",
+    "chromophores": "molar extinction",
+    "skin_prior": "distribution of parameters",
 }
-NO_SPECTRA = {"rgb_spaces", "pixels"}
+NO_SPECTRA = {"rgb_spaces", "pixels", "skin_prior"}
 OBSERVERS = {
     "CIE 1931 2",
     "CIE 1964 10",
@@ -165,7 +174,7 @@ class Manifest(unittest.TestCase):
                     self.assertTrue(all(math.isfinite(v) for v in column.values()))
                     if t["group"] != "daylight_basis":
                         self.assertTrue(all(v >= 0 for v in column.values()))
-                if t["group"] in ("illuminants", "daylight_basis", "filters"):
+                if t["group"] in ("illuminants", "daylight_basis", "filters", "chromophores"):
                     self.assertEqual(list(columns), t["names"])
                 else:
                     self.assertEqual(len(t["names"]), 1)

@@ -48,7 +48,8 @@ class LoadedTable {
     std::vector<Spectrum> spectra =
         readCsvOfScale(readTextFile(m_file), where, m_description.quantity, StatedScale::Unity);
     const std::string& group = m_description.group;
-    const bool oneNameEach = group == "illuminants" || group == "filters" || group == "daylight_basis";
+    const bool oneNameEach =
+        group == "illuminants" || group == "filters" || group == "daylight_basis" || group == "chromophores";
     const std::size_t needed = oneNameEach ? m_description.names.size() : group == "observers" ? 3 : spectra.size();
     if (spectra.size() != needed) {
       throw InputError(where, "columns", std::to_string(spectra.size() + 1),
@@ -320,6 +321,17 @@ ColourSpace DataLibrary::colourSpace(const std::string& name) const {
     names.push_back(std::move(space.name));
   }
   throw InputError("", "space", name, unknownNameRemedy(name, names, listCommand("rgb_spaces")));
+}
+
+Spectrum DataLibrary::chromophore(const std::string& name) const {
+  if (std::optional<Spectrum> found = m_state->column("chromophores", name)) {
+    return *std::move(found);
+  }
+  throw InputError("", "chromophore", name, "must be one of: " + joined(m_state->namesOf("chromophores")));
+}
+
+std::filesystem::path DataLibrary::skinPriorFile() const {
+  return m_state->onlyTable("skin_prior").file();
 }
 
 NameDescription DataLibrary::description(const std::string& group, const std::string& name) const {

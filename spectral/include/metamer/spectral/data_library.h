@@ -66,6 +66,13 @@ class DataLibrary {
   /// The colours by which certificates judge files.
   std::vector<SetPixel> certificatePixels() const;
 
+  /// Decadic molar extinction, in 1/cm per mol/L, of a substance that colours skin: "oxyhaemoglobin",
+  /// "deoxyhaemoglobin" (both of the tetramer), "bilirubin", "beta-carotene". Zero outside its table.
+  /// @throws InputError for any other name (lists these)
+  Spectrum chromophore(const std::string& name) const;
+  /// The table of how the skin model's parameters are distributed, for the library that has the model.
+  std::filesystem::path skinPriorFile() const;
+
   /// What a name of a group ("illuminants", "observers", "filters") is, and words for it.
   NameDescription description(const std::string& group, const std::string& name) const;
   /// The names of a group that a text finds: all its words stand in the name, its description or its words, without
