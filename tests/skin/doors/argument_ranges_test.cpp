@@ -6,6 +6,7 @@
 
 #include "metamer/skin/layered_albedo.h"
 #include "metamer/skin/random_walk.h"
+#include "metamer/skin/skin_estimator.h"
 #include "metamer/skin/skin_model.h"
 #include "metamer/skin/skin_prior.h"
 #include "metamer/skin/skin_table.h"
@@ -86,6 +87,29 @@ TEST(SkinRanges, Draws) {
   EXPECT_REFUSED("count '-1'", sampleSkins(prior, -1, 1));
   EXPECT_REFUSED("count '1000001'", sampleSkins(prior, 1'000'001, 1));
   EXPECT_REFUSED("count '-1'", virtualSkins(testLibrary(), -1, 1));
+}
+
+TEST(SkinRanges, Views) {
+  const spectral::Observer eye = testLibrary().observer("CIE 1931 2");
+  const spectral::RgbSpace space = testLibrary().colourSpace("Rec.709").linear;
+  const spectral::Spectrum light = testLibrary().illuminant("D65");
+  spectral::Observer camera = eye;
+  camera.xyzFromResponse.reset();
+  EXPECT_REFUSED("observer 'CIE 1931 2'", SkinView(light, camera, space));
+  camera.xyzFromResponse = Eigen::Matrix3d::Zero();
+  EXPECT_NE(spectral::errorOf([&] { SkinView(light, camera, space); }), "no InputError");
+  const spectral::Spectrum dark("dark", spectral::SpectralQuantity::SpectralPowerDistribution, {380, 780}, {0, 0});
+  EXPECT_REFUSED("illuminant 'dark'", SkinView(dark, eye, space));
+  const SkinView view(light, eye, space);
+  EXPECT_REFUSED("threads '0'", SkinEstimator(testLibrary(), view, 0));
+  EXPECT_REFUSED("threads '257'", SkinEstimator(testLibrary(), view, 257));
+  const SkinEstimator estimator(testLibrary(), view);
+  std::vector<SkinPixel> two(2);
+  std::vector<float> rgb(6, 0.3F);
+  EXPECT_TAKEN(estimator.estimate(rgb, two));
+  EXPECT_REFUSED("rgb '6'", estimator.estimate(rgb, {two.data(), 1}));
+  EXPECT_REFUSED("rgb '5'", estimator.colour(two, {rgb.data(), 5}));
+  EXPECT_REFUSED("threads '0'", estimator.estimate(rgb, two, 0));
 }
 
 }  // namespace
