@@ -142,7 +142,8 @@ class SpectralTransfer final : public Effect {
       FileStamps files = filesOf(recipe);
       return SharedCache<SpectralEngine>::Built{
           std::make_shared<SpectralEngine>(
-              sip::SpectralTransform(sip::resolve(recipe, library, space.linear), sip::kDefaultBandCount, &m_scenes)),
+              sip::SpectralTransform(sip::resolve(recipe, library, space.linear), sip::kDefaultBandCount, &m_scenes),
+              m_memory),
           std::move(files)};
     });
     const Quality quality = values.menu("quality", time) == kExactQuality ? Quality::Exact : Quality::Map;
@@ -188,6 +189,7 @@ class SpectralTransfer final : public Effect {
   mutable SharedCache<SignalTable> m_tables{kKeptTables};
   mutable SharedCache<SpectralEngine> m_engines{kKeptEngines};
   mutable sip::SceneCache m_scenes;
+  sip::MapMemory m_memory;
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ void onOwnThreads(int count, const std::function<void(int)>& body) {
 const sip::HomogeneousMap& SpectralEngine::map() const {
   const std::lock_guard lock(m_mutex);
   if (!m_map) {
-    m_map = sip::buildHomogeneousMap(m_exact, sip::kDefaultMapTolerance, onOwnThreads);
+    m_map = sip::buildHomogeneousMap(m_exact, sip::kDefaultMapTolerance, onOwnThreads, &m_memory);
   }
   return *m_map;
 }

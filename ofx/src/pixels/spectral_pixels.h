@@ -16,7 +16,9 @@ namespace metamer::ofx {
 /// An engine with its map, the map built when it is first asked for.
 class SpectralEngine {
  public:
-  explicit SpectralEngine(sip::SpectralTransform transform) : m_exact(std::move(transform)) {}
+  /// @param memory  of other engines' maps; outlives this
+  SpectralEngine(sip::SpectralTransform transform, const sip::MapMemory& memory)
+      : m_exact(std::move(transform)), m_memory(memory) {}
 
   const sip::SpectralTransform& exact() const { return m_exact; }
   /// Safe from several threads: one builds, the others wait.
@@ -24,6 +26,7 @@ class SpectralEngine {
 
  private:
   sip::SpectralTransform m_exact;
+  const sip::MapMemory& m_memory;
   mutable std::mutex m_mutex;
   mutable std::optional<sip::HomogeneousMap> m_map;
 };

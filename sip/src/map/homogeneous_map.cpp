@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/sip/homogeneous_map.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,8 @@
 
 #include "map/adini_element.h"
 #include "map/fine_table.h"
+#include "map/linear_cone.h"
+#include "map/map_memory_state.h"
 #include "metamer/spectral/argument_checks.h"
 #include "transform/perceptual_metric.h"
 
@@ -48,33 +49,6 @@ Eigen::Matrix3d withoutOverflow(const Eigen::Matrix3d& cubeFromRgb) {
   return std::ldexp(1.0, -exponent) * cubeFromRgb;
 }
 
-/// Inscribed polygon with at most `most` corners: drops the corner that costs the least area, again and again.
-std::vector<Eigen::Vector3d> inscribedPolygon(std::vector<Eigen::Vector3d> corners, const Eigen::Matrix3d& cubeFromRgb,
-                                              std::size_t most) {
-  const auto flat = [&](const Eigen::Vector3d& ray) {
-    const Eigen::Vector3d p = cubeFromRgb * ray;
-    return Eigen::Vector2d(p.head<2>() / p.z());
-  };
-  while (corners.size() > most) {
-    std::size_t least = 0;
-    double leastArea = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Eigen::Vector2d a = flat(corners[(i + corners.size() - 1) % corners.size()]);
-      const Eigen::Vector2d b = flat(corners[i]);
-      const Eigen::Vector2d c = flat(corners[(i + 1) % corners.size()]);
-      const Eigen::Vector2d ab = b - a;
-      const Eigen::Vector2d ac = c - a;
-      const double area = std::abs(ab.x() * ac.y() - ab.y() * ac.x());
-      if (area < leastArea) {
-        leastArea = area;
-        least = i;
-      }
-    }
-    corners.erase(corners.begin() + static_cast<std::ptrdiff_t>(least));
-  }
-  return corners;
-}
-
 /// What all parts of a map are built from.
 struct Source {
   Source(const SpectralTransform& given, double givenTolerance)
@@ -103,8 +77,13 @@ class Part {
 
   static constexpr int kRows = 2;
 
-  void build() {
+  /// @param memory  of this part; may be null
+  void build(PartMemory* memory) {
     m_table = std::make_unique<NodeTable>();
+    m_memory = memory;
+    if (memory != nullptr) {
+      memory->beginBuild();
+    }
     const int side = 1 << Map::kRootBits[static_cast<std::size_t>(m_face)];
     constexpr int kSide = 1 << (Map::kMaximumDepth + 1);
     std::vector<std::size_t> open;  // cells that are not judged yet, all of one level
@@ -192,6 +171,9 @@ class Part {
       cube[firstAxis()] = 2.0 * u / steps() - 1.0;
       cube[secondAxis()] = 2.0 * v / steps() - 1.0;
       node.point.rgb = m_source.rgbFromCube * cube;
+      if (m_memory != nullptr) {
+        node.point.kept = m_memory->at(key);
+      }
       m_unsolved.push_back(&node);
     }
     return &node;
@@ -376,30 +358,15 @@ class Part {
     std::pmr::unordered_map<std::uint64_t, Node> nodes{&memory};
   };
   std::unique_ptr<NodeTable> m_table;
+  PartMemory* m_memory = nullptr;
   std::vector<Node*> m_unsolved;
   std::vector<Cell> m_cells;  // roots first
 };
 
-void addLinearCone(const Source& source, Map& map) {
-  const auto corners =
-      inscribedPolygon(source.transform.linearConeCorners(), source.cubeFromRgb, Map::kMostLinearNormals);
-  if (corners.size() < 3) {
-    return;
-  }
-  map.linearNormalCount = static_cast<int>(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    Eigen::Vector3d normal = corners[i].cross(corners[(i + 1) % corners.size()]).normalized();
-    if (normal.sum() < 0.0) {  // neutral (1, 1, 1) is inside
-      normal = -normal;
-    }
-    Eigen::Map<Eigen::Vector3f>(map.linearNormals.data() + 3 * i) = normal.cast<float>();
-  }
-}
-
 }  // namespace
 
-HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance,
-                                   const ParallelFor& parallelFor) {
+HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance, const ParallelFor& parallelFor,
+                                   const MapMemory* memory) {
   spectral::requireAbove("tolerance", tolerance, 0.0);
   Map map;
   map.identity = transform.isIdentity();
@@ -410,7 +377,7 @@ HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double to
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.cubeFromRgb.data()) = source.cubeFromRgb.cast<float>();
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.linearMatrix.data()) =
       transform.linearMatrix().cast<float>();
-  addLinearCone(source, map);
+  addLinearCone(transform, source.cubeFromRgb, map);
   map.fine = FineRows::emptyTable();
   std::deque<Part> parts;  // which hold pointers into themselves
   std::uint32_t rootCount = 0;
@@ -422,7 +389,17 @@ HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double to
       parts.emplace_back(source, face, row);
     }
   }
-  parallelFor(static_cast<int>(parts.size()), [&](int part) { parts[static_cast<std::size_t>(part)].build(); });
+  if (memory == nullptr) {
+    parallelFor(static_cast<int>(parts.size()),
+                [&](int part) { parts[static_cast<std::size_t>(part)].build(nullptr); });
+  } else {
+    const auto kept = memory->state().partsFor(transform, parts.size());
+    parallelFor(static_cast<int>(parts.size()), [&](int part) {
+      PartMemory& known = (*kept)[static_cast<std::size_t>(part)];
+      const std::lock_guard lock(known.mutex);
+      parts[static_cast<std::size_t>(part)].build(&known);
+    });
+  }
   for (const Part& part : parts) {
     part.appendTo(map);
   }

@@ -7,30 +7,21 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <variant>
 
 #include "metamer/sip/band_weights.h"
+#include "metamer/sip/scene_cache.h"
 #include "metamer/spectral/argument_checks.h"
-#include "metamer/spectral/input_error.h"
 #include "response/ray_polygon.h"
-#include "scenes/dataset_scene.h"
-#include "scenes/measured_scene.h"
-#include "soft_bound/soft_bound_solver.h"
+#include "response/samples_on_bands.h"
 #include "transform/limiter.h"
 #include "transform/pair_gain.h"
+#include "transform/recovery.h"
 #include "transform/sides.h"
 
 namespace metamer::sip {
 
-using spectral::InputError;
-
 namespace {
 
-/// Noise of a measured sample in the scene, over the kernel's 1, by cross-validation.
-constexpr double kSampleNoise = 0.2;
-constexpr double kSkinNoise = 0.1;
-/// The skin scene's skins are followed by this much more closely at strength 1.
-constexpr double kSkinSceneFactor = 0.1;
 /// Colours that are solved side by side: enough to fill vectors, few enough for their spectra to stay in the cache.
 constexpr std::size_t kTogether = 64;
 
@@ -43,41 +34,6 @@ double exposureScale(const Eigen::Vector3d& colour) {
   return std::ldexp(1.0, std::clamp(-exponent, -1000, 1000));
 }
 
-Eigen::MatrixXd onBands(const std::vector<spectral::DomainSamples>& samples, int bandCount) {
-  Eigen::MatrixXd bands(bandCount, static_cast<Eigen::Index>(samples.size()));
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    bands.col(static_cast<Eigen::Index>(i)) = atBandCentres(samples[i], bandCount);
-  }
-  return bands;
-}
-
-using Scene = std::variant<std::monostate, MeasuredScene, DatasetScene>;
-
-Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver, SceneCache* cache) {
-  if (scene.kind == ReferenceScene::Kind::Smooth) {
-    return {};
-  }
-  if (scene.samples.empty()) {
-    throw InputError("recipe", "scene.set", "", "a scene of measured spectra needs a set of reflectances");
-  }
-  if (!(scene.strength >= 0.0 && scene.strength <= 1.0)) {
-    throw InputError("recipe", "scene.strength", std::to_string(scene.strength), "give a number from 0 to 1");
-  }
-  if (scene.kind == ReferenceScene::Kind::Dataset) {
-    return DatasetScene(solver, onBands(scene.samples, solver.bandCount()));
-  }
-  const Eigen::MatrixXd samples = onBands(scene.samples, MeasuredScene::kNodeCount);
-  const Eigen::MatrixXd skins = onBands(scene.skins, MeasuredScene::kNodeCount);
-  Eigen::MatrixXd all(MeasuredScene::kNodeCount, samples.cols() + skins.cols());
-  all << samples, skins;
-  const double strength = scene.kind == ReferenceScene::Kind::Skin ? scene.strength : 0.0;
-  Eigen::VectorXd noise(all.cols());
-  noise << Eigen::VectorXd::Constant(samples.cols(), kSampleNoise),
-      Eigen::VectorXd::Constant(skins.cols(), kSkinNoise * std::pow(kSkinSceneFactor, strength));
-  return cache != nullptr ? MeasuredScene(solver, *cache->seeds(solver.weights(), all, noise))
-                          : MeasuredScene(solver, all, noise);
-}
-
 }  // namespace
 
 /// Colours go through "relative" XYZ: of the working space, over its white. Plain adaptation leaves them as they are.
@@ -86,35 +42,19 @@ struct SpectralTransform::State {
   bool identity = false;
   Sides sides;
   Eigen::Matrix3Xd relativeFromSpectrum;  ///< 3 x B
-  std::optional<SoftBoundSolver> solver;
-  Scene scene;
+  std::shared_ptr<const Recovery> recovery;
   Limiter limiter{Limiter::Reach{}};
   bool relaxed = false;
   Eigen::Matrix3d linearSlope;  ///< of the relative result where no band is clamped and the scene adds nothing
   WeightedSums seenSamples;     ///< MeasuredScene's, as the relative result sees them
   Diagnostics diagnostics;
 
-  /// What the scene adds to the smooth spectra of some responses, a column each; no columns where it adds nothing.
-  Eigen::MatrixXd priors(const Eigen::Matrix3Xd& responses) const {
-    return std::visit(
-        [&](const auto& kind) -> Eigen::MatrixXd {
-          if constexpr (requires { kind.deviations(responses); }) {
-            return kind.deviations(responses);
-          } else {
-            return {};
-          }
-        },
-        scene);
-  }
-  /// The spectra of some responses, a column each.
-  /// @param clamped  where not null, an entry a response: the bands that are below zero
-  Eigen::MatrixXd spectra(const Eigen::Matrix3Xd& responses, std::vector<ClampedBands>* clamped = nullptr) const;
   /// The spectral result before any limit.
   Eigen::Vector3d relativeResult(const Eigen::Vector3d& relative, const Eigen::Vector3d& response,
                                  const Eigen::Ref<const Eigen::VectorXd>& spectrum) const {
     Eigen::Vector3d result = relativeFromSpectrum * spectrum + sides.unseen * relative;
     if (relaxed) {
-      result += sides.relativeFromResponse * (response - solver->weights() * spectrum);
+      result += sides.relativeFromResponse * (response - recovery->solver().weights() * spectrum);
     }
     return result;
   }
@@ -122,45 +62,25 @@ struct SpectralTransform::State {
   Eigen::Matrix3d relativeSlope(const BandTriple& spectrumSlope) const {
     Eigen::Matrix3d slope = relativeFromSpectrum * spectrumSlope + sides.unseen * sides.relativeFromResponse;
     if (relaxed) {
-      slope += sides.relativeFromResponse * (Eigen::Matrix3d::Identity() - solver->weights() * spectrumSlope);
+      slope +=
+          sides.relativeFromResponse * (Eigen::Matrix3d::Identity() - recovery->solver().weights() * spectrumSlope);
     }
     return slope;
   }
   void setSlopes() {
-    linearSlope = relativeSlope(solver->unclamped());
-    if (const auto* measured = std::get_if<MeasuredScene>(&scene)) {
+    linearSlope = relativeSlope(recovery->solver().unclamped());
+    if (const MeasuredScene* measured = recovery->measured()) {
       Eigen::Matrix3Xd seen = relativeFromSpectrum;
       if (relaxed) {
-        seen -= sides.relativeFromResponse * solver->weights();
+        seen -= sides.relativeFromResponse * recovery->solver().weights();
       }
       seenSamples = measured->seenBy(seen);
     }
   }
   /// How the relative result before any limit changes with the response.
-  Eigen::Matrix3d slopeAt(const Eigen::Vector3d& response, const ClampedBands& clamped) const;
+  Eigen::Matrix3d slopeAt(const Eigen::Vector3d& response, const Point& point) const;
   void setLimits(const std::vector<spectral::DomainSamples>& training);
 };
-
-Eigen::MatrixXd SpectralTransform::State::spectra(const Eigen::Matrix3Xd& responses,
-                                                  std::vector<ClampedBands>* clamped) const {
-  const Eigen::MatrixXd prior = priors(responses);
-  Eigen::MatrixXd spectra(solver->bandCount(), responses.cols());
-  std::vector<SoftBoundSolver::Problem> problems(static_cast<std::size_t>(responses.cols()));
-  for (Eigen::Index k = 0; k < responses.cols(); ++k) {
-    SoftBoundSolver::Problem& problem = problems[static_cast<std::size_t>(k)];
-    problem.tristimulus = responses.col(k);
-    problem.prior = prior.cols() > 0 ? prior.col(k).data() : nullptr;
-    problem.reflectance = spectra.col(k).data();
-  }
-  solver->solve(problems);
-  if (clamped != nullptr) {
-    clamped->clear();
-    for (const SoftBoundSolver::Problem& problem : problems) {
-      clamped->push_back(problem.clamped);
-    }
-  }
-  return spectra;
-}
 
 void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSamples>& training) {
   // The surfaces' true responses, whatever the bands.
@@ -169,7 +89,7 @@ void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSampl
   for (std::size_t k = 0; k < training.size(); ++k) {
     responses.col(static_cast<Eigen::Index>(k)) = weights * training[k];
   }
-  const Eigen::MatrixXd reflectances = spectra(responses);
+  const Eigen::MatrixXd reflectances = recovery->spectraOfTraining(responses);
   std::vector<Eigen::Vector3d> colours;
   std::vector<Eigen::Vector3d> differences;
   for (Eigen::Index k = 0; k < responses.cols(); ++k) {
@@ -188,20 +108,19 @@ void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSampl
       static_cast<double>(limited) / static_cast<double>(std::max<std::size_t>(1, colours.size()));
 }
 
-Eigen::Matrix3d SpectralTransform::State::slopeAt(const Eigen::Vector3d& response, const ClampedBands& clamped) const {
-  if (const auto* measured = std::get_if<MeasuredScene>(&scene)) {
-    if (const auto mixture = measured->mixture(response)) {
-      if (clamped.none()) {
-        return linearSlope + MeasuredScene::slope(*mixture, seenSamples);
-      }
-      const BandTriple priorSlope = measured->local(*mixture).slope;
-      return relativeSlope(solver->derivative(clamped, &priorSlope));
-    }
-  } else if (const auto* dataset = std::get_if<DatasetScene>(&scene)) {
-    const BandTriple priorSlope = dataset->local(response).slope;
-    return relativeSlope(solver->derivative(clamped, &priorSlope));
+Eigen::Matrix3d SpectralTransform::State::slopeAt(const Eigen::Vector3d& response, const Point& point) const {
+  const MeasuredScene* const measured = recovery->measured();
+  if (point.clamped.none() && measured != nullptr) {
+    const auto mixture = measured->mixture(response);
+    return mixture ? Eigen::Matrix3d(linearSlope + MeasuredScene::slope(*mixture, seenSamples)) : linearSlope;
   }
-  return clamped.none() ? linearSlope : relativeSlope(solver->derivative(clamped));
+  if (point.kept == nullptr) {
+    return relativeSlope(recovery->slope(response, point.clamped));
+  }
+  if (point.kept->slope.rows() == 0) {
+    point.kept->slope = recovery->slope(response, point.clamped);
+  }
+  return relativeSlope(point.kept->slope);
 }
 
 SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount, SceneCache* cache) {
@@ -220,15 +139,16 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount, S
   if (!spec.training.empty() && !state->identity) {
     const PairWeights pair{sides.inputWeights(kDecisionBandCount), sides.relativeWeights(kDecisionBandCount),
                            sides.relativeFromResponse};
-    const Eigen::MatrixXd surfaces = onBands(spec.training, kDecisionBandCount);
+    const Eigen::MatrixXd surfaces = samplesOnBands(spec.training, kDecisionBandCount);
     state->diagnostics.gain = gainOf(pair, surfaces, 0.0);
     relaxation = relaxationOf(pair, surfaces);
   }
   state->diagnostics.relaxation = relaxation;
   state->relaxed = relaxation > 0.0;
   // The price of roughness grows with the number of steps that a slope is spread over.
-  state->solver.emplace(weights, relaxation * (kDecisionBandCount - 1) / (bandCount - 1));
-  state->scene = makeScene(spec.scene, *state->solver, cache);
+  const double price = relaxation * (kDecisionBandCount - 1) / (bandCount - 1);
+  state->recovery = cache != nullptr ? cache->recovery(weights, price, spec.scene)
+                                     : std::make_shared<const Recovery>(weights, price, spec.scene);
   state->setSlopes();
   if (!state->identity) {
     state->setLimits(spec.training);
@@ -282,16 +202,42 @@ void SpectralTransform::solveTogether(std::span<Point> points) const {
     responses.col(static_cast<Eigen::Index>(k)) =
         sides.responseFromRgb * (exposureScale(solved[k]->rgb) * solved[k]->rgb);
   }
-  std::vector<ClampedBands> clamped;
-  const Eigen::MatrixXd reflectances = m_state->spectra(responses, &clamped);
+  // Those whose spectra are known already are not solved again.
+  std::vector<std::size_t> open;
   for (std::size_t k = 0; k < solved.size(); ++k) {
+    if (solved[k]->kept == nullptr || solved[k]->kept->reflectance.size() == 0) {
+      open.push_back(k);
+    }
+  }
+  Eigen::Matrix3Xd openResponses(3, static_cast<Eigen::Index>(open.size()));
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    openResponses.col(static_cast<Eigen::Index>(i)) = responses.col(static_cast<Eigen::Index>(open[i]));
+  }
+  std::vector<ClampedBands> clamped;
+  const Eigen::MatrixXd reflectances = m_state->recovery->spectra(openResponses, &clamped);
+  const auto finish = [&](std::size_t k, const Eigen::Ref<const Eigen::VectorXd>& reflectance) {
     Point& point = *solved[k];
-    const auto column = static_cast<Eigen::Index>(k);
     const double scale = exposureScale(point.rgb);
     const Eigen::Vector3d relative = sides.relativeFromRgb * (scale * point.rgb);
-    point.difference = m_state->relativeResult(relative, responses.col(column), reflectances.col(column)) - relative;
+    point.difference =
+        m_state->relativeResult(relative, responses.col(static_cast<Eigen::Index>(k)), reflectance) - relative;
     point.value = sides.rgbFromRelative * m_state->limiter.apply(relative, point.difference) / scale;
-    point.clamped = clamped[k];
+  };
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    Point& point = *solved[open[i]];
+    point.clamped = clamped[i];
+    finish(open[i], reflectances.col(static_cast<Eigen::Index>(i)));
+    if (point.kept != nullptr) {
+      *point.kept = {reflectances.col(static_cast<Eigen::Index>(i)), clamped[i], {}};
+    }
+  }
+  for (std::size_t k = 0, i = 0; k < solved.size(); ++k) {
+    if (i < open.size() && open[i] == k) {
+      ++i;
+      continue;
+    }
+    solved[k]->clamped = solved[k]->kept->clamped;
+    finish(k, solved[k]->kept->reflectance);
   }
 }
 
@@ -318,7 +264,7 @@ Eigen::Matrix3d SpectralTransform::slopeAt(const Point& point) const {
   const State& state = *m_state;
   const Eigen::Vector3d scaled = (point.rgb.isZero(0.0) ? 1.0 : exposureScale(point.rgb)) * point.rgb;
   const Eigen::Matrix3d differenceSlope =
-      state.slopeAt(state.sides.responseFromRgb * scaled, point.clamped) * state.sides.responseFromRgb -
+      state.slopeAt(state.sides.responseFromRgb * scaled, point) * state.sides.responseFromRgb -
       state.sides.relativeFromRgb;
   const Limiter::Limited limited = state.limiter.limited(state.sides.relativeFromRgb * scaled, point.difference);
   return state.sides.rgbFromRelative *
@@ -342,14 +288,17 @@ Eigen::VectorXd SpectralTransform::reflectance(const Eigen::Vector3d& rgb) const
     return Eigen::VectorXd::Zero(bandCount());
   }
   const double scale = rgb.isZero(0.0) ? 1.0 : exposureScale(rgb);
-  return m_state->spectra(m_state->sides.responseFromRgb * (scale * rgb)) / scale;
+  return m_state->recovery->spectra(m_state->sides.responseFromRgb * (scale * rgb)) / scale;
 }
 
 bool SpectralTransform::isIdentity() const {
   return m_state->identity;
 }
 int SpectralTransform::bandCount() const {
-  return m_state->solver->bandCount();
+  return m_state->recovery->solver().bandCount();
+}
+std::shared_ptr<const void> SpectralTransform::recovery() const {
+  return m_state->recovery;
 }
 const spectral::RgbSpace& SpectralTransform::space() const {
   return m_state->space;
@@ -358,7 +307,7 @@ Eigen::Matrix3d SpectralTransform::linearMatrix() const {
   if (m_state->identity) {
     return Eigen::Matrix3d::Identity();
   }
-  return m_state->sides.rgbFromRelative * m_state->relativeSlope(m_state->solver->unclamped()) *
+  return m_state->sides.rgbFromRelative * m_state->relativeSlope(m_state->recovery->solver().unclamped()) *
          m_state->sides.responseFromRgb;
 }
 Eigen::Matrix3d SpectralTransform::responseFromRgb() const {
@@ -380,7 +329,7 @@ SpectralTransform::Diagnostics SpectralTransform::diagnostics() const {
 
 std::vector<Eigen::Vector3d> SpectralTransform::linearConeCorners() const {
   const State& state = *m_state;
-  if (state.identity || !std::holds_alternative<std::monostate>(state.scene)) {
+  if (state.identity || !state.recovery->isSmooth()) {
     return {};
   }
   // Far corners round all colours that reflectances can make, then the half-spaces: no band below zero, and no more
@@ -390,11 +339,11 @@ std::vector<Eigen::Vector3d> SpectralTransform::linearConeCorners() const {
     corner = 8.0 * corner - Eigen::Vector3d::Constant(7.0 / 3.0);
   }
   std::vector<Eigen::Vector3d> normals;
-  for (Eigen::Index b = 0; b < state.solver->unclamped().rows(); ++b) {
-    normals.emplace_back(state.solver->unclamped().row(b).transpose());
+  for (Eigen::Index b = 0; b < state.recovery->solver().unclamped().rows(); ++b) {
+    normals.emplace_back(state.recovery->solver().unclamped().row(b).transpose());
   }
   const Eigen::Matrix3d& relative = state.sides.relativeFromResponse;
-  const Eigen::Matrix3d difference = state.relativeSlope(state.solver->unclamped()) - relative;
+  const Eigen::Matrix3d difference = state.relativeSlope(state.recovery->solver().unclamped()) - relative;
   const auto keepWithin = [&](Eigen::Index component, double reach, double sign) {
     normals.emplace_back((0.5 * reach * relative.row(1) - sign * difference.row(component)).transpose());
   };

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "metamer/sip/error_protocol.h"
+#include "metamer/sip/scene_cache.h"
 #include "sip/sip_fixture.h"
 
 namespace metamer::sip {
@@ -327,6 +328,30 @@ TEST(HomogeneousMapTest, LightsThatTellFewChannelsApart) {
     map.apply(pixels);
     for (const float value : pixels) {
       ASSERT_TRUE(std::isfinite(value)) << light;
+    }
+  }
+}
+
+TEST(HomogeneousMapTest, MemoryChangesNoMap) {
+  SceneCache cache;
+  const MapMemory memory;
+  const auto build = [&](const TransformSpec& spec, bool remembers) {
+    const SpectralTransform transform(spec, 41, &cache);
+    return buildHomogeneousMap(transform, 0.5, inOrder, remembers ? &memory : nullptr);
+  };
+  // Another output, adaptation, and input; and back.
+  TransformSpec adapted = naturalSpecOf("D65", "A");
+  adapted.adaptation = 0.7;
+  for (const TransformSpec& spec : {naturalSpecOf("D65", "A"), adapted, naturalSpecOf("D65", "FL11"),
+                                    naturalSpecOf("A", "D65"), naturalSpecOf("D65", "A"), specOf("D65", "A")}) {
+    const HomogeneousMap expected = build(spec, false);
+    const HomogeneousMap found = build(spec, true);
+    EXPECT_EQ(found.roots, expected.roots);
+    EXPECT_EQ(found.patchIndex, expected.patchIndex);
+    EXPECT_EQ(found.fine, expected.fine);
+    ASSERT_EQ(found.patches.size(), expected.patches.size());
+    for (std::size_t k = 0; k < found.patches.size(); ++k) {
+      ASSERT_EQ(found.patches[k].coefficients, expected.patches[k].coefficients);
     }
   }
 }

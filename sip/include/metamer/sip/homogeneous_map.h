@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "metamer/sip/map_memory.h"
 #include "metamer/sip/spectral_transform.h"
 
 namespace metamer::sip {
@@ -87,8 +88,9 @@ void inOrder(int count, const std::function<void(int)>& body);
 /// @param tolerance  above 0: CIEDE2000 at Y = 0.18, relative to the working white, at each patch's checked points.
 ///                   Patches at the greatest depth may exceed it (statistics.largestError says by how much).
 /// @param parallelFor  runs the parts of the map
+/// @param memory       of maps before; may be null
 /// @throws spectral::InputError where the tolerance is not above 0
 HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance = kDefaultMapTolerance,
-                                   const ParallelFor& parallelFor = inOrder);
+                                   const ParallelFor& parallelFor = inOrder, const MapMemory* memory = nullptr);
 
 }  // namespace metamer::sip

@@ -6,12 +6,13 @@
 
 namespace metamer::sip {
 
-struct MeasuredSeeds;
+class Recovery;
+struct ReferenceScene;
 
-/// Measured scenes as lamps and observers see them, kept from one transform to the next: what a scene is made of
-/// depends on the light, filters and observer of the shot, on the set and on the bands, not on where colours go.
-/// Belongs to whoever makes several transforms (a plug-in, a bake of many files); holds the latest few. Changes the
-/// time that a transform takes to make, and nothing else. Safe to share between threads.
+/// Input sides with their scenes, kept from one transform to the next: which spectra colours are given depends on the
+/// light, filters and observer of the shot, on the scene and on the bands, not on where the colours go. Belongs to
+/// whoever makes several transforms (a plug-in, a bake of many files); holds the latest few. Changes the time that a
+/// transform takes to make, and nothing else. Safe to share between threads.
 class SceneCache {
  public:
   SceneCache();
@@ -19,9 +20,9 @@ class SceneCache {
   SceneCache(const SceneCache&) = delete;
   SceneCache& operator=(const SceneCache&) = delete;
 
-  /// Used by SpectralTransform: the seeds of these very numbers (MeasuredSeeds), solved where they are not held.
-  std::shared_ptr<const MeasuredSeeds> seeds(const Eigen::Matrix3Xd& weights, const Eigen::MatrixXd& reflectances,
-                                             const Eigen::VectorXd& noise);
+  /// Used by SpectralTransform: the recovery of these very numbers, made where it is not held.
+  std::shared_ptr<const Recovery> recovery(const Eigen::Matrix3Xd& weights, double relaxation,
+                                           const ReferenceScene& scene);
 
  private:
   struct State;

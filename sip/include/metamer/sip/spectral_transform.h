@@ -86,12 +86,20 @@ class SpectralTransform {
   };
   Linearisation linearise(const Eigen::Vector3d& rgb) const;
 
+  /// A spectrum that was solved for a colour, for all transforms that share a recovery(). Empty before.
+  struct SolvedSpectrum {
+    Eigen::VectorXd reflectance;
+    ClampedBands clamped;
+    Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kConvergedBandCount, 3> slope;  ///< by the response; empty before it is
+                                                                                ///< asked for
+  };
   /// A colour and what it becomes, with what the slope there depends on.
   struct Point {
     Eigen::Vector3d rgb = Eigen::Vector3d::Zero();         ///< in
     Eigen::Vector3d value = Eigen::Vector3d::Zero();       ///< out: apply(rgb)
     ClampedBands clamped;                                  ///< out: bands where the reflectance is below zero
     Eigen::Vector3d difference = Eigen::Vector3d::Zero();  ///< out: from plain adaptation, before any limit
+    SolvedSpectrum* kept = nullptr;  ///< in: of this colour, where it is to be kept; out: filled. Changes no result
   };
   /// Many colours, several times as fast as one by one; slopeAt() then gives the derivative where it is wanted.
   void solve(std::span<Point> points) const;
@@ -100,6 +108,10 @@ class SpectralTransform {
   /// The spectrum given to a colour, at the band centres: a reflectance, but for what lies below zero where no
   /// reflectance can make the colour. Zero for a colour that is not finite.
   Eigen::VectorXd reflectance(const Eigen::Vector3d& rgb) const;
+
+  /// Stands for which spectra responses are given: the same object for transforms that were made with one SceneCache
+  /// and differ in nothing of that. With responseFromRgb() the same too, they give the same spectra to colours.
+  std::shared_ptr<const void> recovery() const;
 
   bool isIdentity() const;  ///< both pipelines are the same: apply() copies
   int bandCount() const;

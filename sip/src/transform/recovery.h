@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <mutex>
+#include <variant>
+#include <vector>
+
+#include "metamer/sip/spectral_transform.h"
+#include "scenes/dataset_scene.h"
+#include "scenes/measured_scene.h"
+#include "soft_bound/soft_bound_solver.h"
+
+namespace metamer::sip {
+
+/// Which spectrum a white-normalised response is given, and how that changes: all of a transform that does not depend
+/// on where the colours go. Immutable, safe to share between threads and transforms.
+class Recovery {
+ public:
+  /// @param weights     of the input side, as SoftBoundSolver takes them
+  /// @param relaxation  likewise
+  /// @throws spectral::InputError where the scene has no meaning
+  Recovery(const Eigen::Matrix3Xd& weights, double relaxation, const ReferenceScene& scene);
+
+  const SoftBoundSolver& solver() const { return m_solver; }
+  /// Whether it is without a scene.
+  bool isSmooth() const { return std::holds_alternative<std::monostate>(m_scene); }
+  /// Null where the scene is none.
+  const MeasuredScene* measured() const { return std::get_if<MeasuredScene>(&m_scene); }
+
+  /// The spectra of some responses, a column each.
+  /// @param clamped  where not null, an entry a response: the bands that are below zero
+  Eigen::MatrixXd spectra(const Eigen::Matrix3Xd& responses, std::vector<ClampedBands>* clamped = nullptr) const;
+  /// The derivative of a spectrum by the response, B x 3. @param clamped  of that spectrum
+  BandTriple slope(const Eigen::Vector3d& response, const ClampedBands& clamped) const;
+
+  /// spectra() of responses that are asked for again and again: the training surfaces'.
+  Eigen::MatrixXd spectraOfTraining(const Eigen::Matrix3Xd& responses) const;
+
+ private:
+  SoftBoundSolver m_solver;
+  std::variant<std::monostate, MeasuredScene, DatasetScene> m_scene;
+  mutable std::mutex m_mutex;
+  mutable Eigen::Matrix3Xd m_trainingResponses;  // the latest
+  mutable Eigen::MatrixXd m_trainingSpectra;
+};
+
+}  // namespace metamer::sip
