@@ -6,7 +6,7 @@
     recipe = metamer.Recipe("D65", "HP1", adaptation=0.5)
     relit = metamer.Transform(recipe)(pixels)
 
-LED stages are in `metamer.stage`.
+LED stages are in `metamer.stage`, skin is in `metamer.skin`.
 """
 
 from ._core import (

@@ -18,6 +18,7 @@ void bindRecipe(nb::module_& module);
 void bindTransform(nb::module_& module);
 void bindComparison(nb::module_& module);
 void bindStage(nb::module_& module);
+void bindSkin(nb::module_& module);
 
 /// `library`, or where it is None the tables of $METAMER_DATA, else those that lie beside the module.
 /// @throws spectral::InputError where there are none

@@ -13,4 +13,5 @@ NB_MODULE(_core, module) {
   bindTransform(module);
   bindComparison(module);
   bindStage(module);
+  bindSkin(module);
 }

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Skin: spectra from parameters, parameters from colours, edits."""
+
+import unittest
+
+import numpy as np
+
+import metamer
+from metamer import skin
+
+
+class Skin(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.people = skin.sample(60, seed=4)
+        cls.estimator = skin.Estimator("D65", "CIE 1931 2", "Rec.709")
+
+    def colours(self):
+        """Linear Rec.709 of the people's skin in daylight, by the module's own colorimetry."""
+        xyz = np.array([metamer.tristimulus(dict(zip(range(380, 781, 10), spectrum)), "D65", "CIE 1931 2")
+                        for spectrum in skin.albedo(self.people)])
+        to_rgb = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560],
+                           [0.0556434, -0.2040259, 1.0572252]])
+        return xyz @ to_rgb.T
+
+    def test_spectra(self):
+        spectra = skin.albedo(self.people)
+        self.assertEqual(spectra.shape, (60, 41))
+        self.assertTrue(np.all((spectra > 0) & (spectra < 1)))
+        # The misfit's repair darkens deep red, where the model is too bright.
+        self.assertTrue(np.all(spectra[:, -1] < skin.albedo(self.people, repair=False)[:, -1]))
+        named = skin.virtual_skins(60, seed=4)
+        np.testing.assert_allclose([one.values for one in named], spectra, rtol=1e-12)
+        np.testing.assert_array_equal(self.people, skin.sample(60, seed=4))
+
+    def test_round_trip_and_spectrum(self):
+        rgb = self.colours().reshape(6, 10, 3)
+        maps = self.estimator.estimate(rgb)
+        self.assertEqual(maps.shape, (6, 10, 9))
+        np.testing.assert_allclose(self.estimator.colour(maps), rgb, rtol=1e-6, atol=1e-7)
+        found = self.estimator.spectrum(maps).reshape(60, 41)
+        self.assertLess(np.sqrt(np.mean((found - skin.albedo(self.people)) ** 2)), 0.012)
+        # Melanin by its cube root, against the prior's deviation of 0.052.
+        error = np.cbrt(maps[..., 0].ravel()) - np.cbrt(self.people[:, 0])
+        self.assertLess(np.sqrt(np.mean(error**2)), 0.02)
+
+    def test_edits(self):
+        maps = self.estimator.estimate(self.colours().reshape(6, 10, 3))
+        red = lambda edited: (lambda rgb: rgb[..., 0] / rgb[..., 1])(self.estimator.colour(edited))
+        self.assertTrue(np.all(red(skin.flush(maps, 0.5)) > red(maps)))
+        self.assertTrue(np.all(self.estimator.colour(skin.tan(maps, 1)) < self.estimator.colour(maps)))
+        self.assertTrue(np.all(self.estimator.colour(skin.bleach(maps, 1)).mean(-1) > self.estimator.colour(maps).mean(-1)))
+        matte = np.zeros((6, 10))
+        matte[2, 3] = 1
+        edited = skin.multiply(maps, "blood", 2, matte)
+        changed = np.any(edited != maps, axis=-1)
+        self.assertEqual((changed.sum(), bool(changed[2, 3])), (1, True))
+        smoothed = skin.smooth(maps, "melanin", 2.0)
+        self.assertLess(smoothed[..., 0].std(), maps[..., 0].std())
+        np.testing.assert_array_equal(smoothed[..., 1:], maps[..., 1:])
+        self.assertTrue(np.all(skin.set_quantity(maps, "thickness", 120)[..., 2] == 120))
+
+    def test_what_colour_tells(self):
+        told = self.estimator.identification()
+        self.assertTrue(told["separates_blood_from_melanin"])
+        self.assertGreater(told["melanin"], told["thickness"])
+
+    def test_refusals(self):
+        with self.assertRaisesRegex(ValueError, "last axis must have 3"):
+            self.estimator.estimate(np.zeros((4, 4)))
+        with self.assertRaisesRegex(ValueError, "melanin '2'"):
+            skin.albedo([[2, 0.02, 100, 0.5, 0.5]])
+        with self.assertRaisesRegex(ValueError, "quantity 'lipstick'"):
+            skin.multiply(np.ones((2, 2, 9)), "lipstick", 2)
+        with self.assertRaisesRegex(ValueError, "factor '-1'"):
+            skin.multiply(np.ones((2, 2, 9)), "blood", -1)
+
+
+if __name__ == "__main__":
+    unittest.main()
