@@ -17,7 +17,7 @@ struct CommandName {
   }
 };
 
-inline constexpr CommandName kApply{"apply", "Apply a recipe, exactly, or a LUT file to a picture"};
+inline constexpr CommandName kApply{"apply", "Apply a recipe, exactly, or a LUT file to a picture or to frames"};
 inline constexpr CommandName kCompare{"compare",
                                       "Tell how far two transforms or pictures are apart; exit 3 beyond the tolerance"};
 inline constexpr CommandName kStage{"stage", "LED stages: walls, fixtures and what they do to colours"};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture.h"
 
-#include <OpenImageIO/parallel.h>
 #include <OpenImageIO/strutil.h>
 
 #include <algorithm>
@@ -54,45 +53,15 @@ stage::PictureView Picture::view() const {
       {static_cast<const float*>(m_pixels.localpixels()), count}, spec.width, spec.height, spec.nchannels, m_colours};
 }
 
-void Picture::changeRow(int row, const std::function<void(std::span<float> rgba)>& body) {
+std::vector<float> Picture::rgba() const {
   const OIIO::ImageSpec& spec = m_pixels.spec();
-  const auto width = static_cast<std::size_t>(spec.width);
+  const auto* pixel = static_cast<const float*>(m_pixels.localpixels());
   const auto stride = static_cast<std::size_t>(spec.nchannels);
-  auto* pixel = static_cast<float*>(m_pixels.pixeladdr(spec.x, spec.y + row % spec.height, spec.z + row / spec.height));
-  std::vector<float> rgba(4 * width, 1.0F);
-  std::vector<char> isFinite(width, 1);
-  for (std::size_t x = 0; x < width; ++x) {
+  std::vector<float> all(4 * static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()), 1.0F);
+  for (std::size_t i = 0; i < all.size() / 4; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const float value = pixel[x * stride + static_cast<std::size_t>(m_colours[k])];
-      rgba[4 * x + k] = value;
-      isFinite[x] = static_cast<char>(isFinite[x] != 0 && std::isfinite(value));
+      all[4 * i + k] = pixel[i * stride + static_cast<std::size_t>(m_colours[k])];
     }
-  }
-  body(rgba);
-  for (std::size_t x = 0; x < width; ++x) {
-    for (std::size_t k = 0; k < 3 && isFinite[x] != 0; ++k) {
-      pixel[x * stride + static_cast<std::size_t>(m_colours[k])] = rgba[4 * x + k];
-    }
-  }
-}
-
-void Picture::forEachRow(const std::function<void(std::span<float> rgba)>& body, int threads) {
-  const OIIO::ImageSpec& spec = m_pixels.spec();
-  OIIO::parallel_for_chunked(
-      0, static_cast<std::int64_t>(spec.height) * spec.depth, 4,
-      [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin; row < end; ++row) {
-          changeRow(static_cast<int>(row), body);
-        }
-      },
-      OIIO::parallel_options(threads));
-}
-
-std::vector<float> Picture::pixels() {
-  std::vector<float> all;
-  all.reserve(4 * static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()));
-  for (int row = 0; row < height(); ++row) {
-    changeRow(row, [&](std::span<float> rgba) { all.insert(all.end(), rgba.begin(), rgba.end()); });
   }
   return all;
 }
@@ -117,10 +86,6 @@ void writePixels(const OIIO::ImageBuf& pixels, const std::filesystem::path& file
     throw InputError(file.string(), field, "", "cannot be written: " + pixels.geterror());
   }
   pending.commit();
-}
-
-void Picture::write(const std::filesystem::path& file) const {
-  writePixels(m_pixels, file, OIIO::TypeDesc::FLOAT, "output");
 }
 
 }  // namespace metamer::lutgen

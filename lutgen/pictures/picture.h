@@ -5,7 +5,6 @@
 
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,22 +23,13 @@ class Picture {
   /// @throws spectral::InputError: cannot be read, several parts, deep, no three colour channels
   explicit Picture(const std::filesystem::path& file);
 
-  /// Calls `body` with the RGBA pixels of each row (alpha 1), shared among threads, and takes the colours back. Other
-  /// channels, and pixels with a component that is not finite, are left as they are.
-  /// @param threads  0: as many as the machine has
-  void forEachRow(const std::function<void(std::span<float> rgba)>& body, int threads);
-
   int width() const { return m_pixels.spec().width; }
   /// Rows, those of every slice of a volume.
   int height() const { return m_pixels.spec().height * m_pixels.spec().depth; }
   /// All pixels as RGBA, row by row, alpha 1.
-  std::vector<float> pixels();
+  std::vector<float> rgba() const;
   /// Whether the file says, or its format implies, that the pixels are encoded as sRGB.
   bool isSrgb() const;
-
-  /// Writes it whole or not at all, as float where the format can.
-  /// @throws spectral::InputError
-  void write(const std::filesystem::path& file) const;
 
   /// The pixels where they lie, good as long as this is; of a volume the first slice.
   stage::PictureView view() const;
@@ -48,8 +38,6 @@ class Picture {
   const std::array<int, 3>& colours() const { return m_colours; }
 
  private:
-  void changeRow(int row, const std::function<void(std::span<float> rgba)>& body);
-
   OIIO::ImageBuf m_pixels;
   std::array<int, 3> m_colours{};  ///< channels of red, green, blue
 };

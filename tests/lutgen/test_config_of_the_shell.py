@@ -42,14 +42,14 @@ class ConfigOfTheShell(LutgenTest):
 
     def test_built_in_spaces_do_not_ask_for_it(self):
         self.assertWorks("bake", *DAY_TO_TUNGSTEN, "-o", "none.cube")
-        self.assertWorks("apply", "r.yaml", "in.exr", "none.exr")
+        self.assertWorks("apply", "--quiet", "r.yaml", "in.exr", "none.exr")
         without = (self.folder / "none.cube").read_bytes(), read(self.folder / "none.exr")[0]
         for value in self.of_the_shell():
             with self.subTest(OCIO=value):
                 shell = {"OCIO": value}
                 self.assertWorks("bake", *DAY_TO_TUNGSTEN, "-o", "q.cube", environment=shell)
                 self.assertEqual((self.folder / "q.cube").read_bytes(), without[0])
-                self.assertWorks("apply", "r.yaml", "in.exr", "out.exr", environment=shell)
+                self.assertWorks("apply", "--quiet", "r.yaml", "in.exr", "out.exr", environment=shell)
                 for name, channel in read(self.folder / "out.exr")[0].items():
                     np.testing.assert_array_equal(channel, without[1][name])
                 said = self.assertWorks("compare", "r.yaml", "r.yaml", "--tolerance", "0.01", environment=shell)
@@ -75,12 +75,12 @@ class ConfigOfTheShell(LutgenTest):
         pixels = ramp()
         for name in ("ocio://studio-config-latest", str(self.folder / "studio.ocio")):
             with self.subTest(OCIO=name):
-                self.assertWorks("apply", "r.yaml", "in.exr", "out.exr", "--space", space, environment={"OCIO": name})
+                self.assertWorks("apply", "--quiet", "r.yaml", "in.exr", "out.exr", "--space", space, environment={"OCIO": name})
                 ours = np.stack([read(self.folder / "out.exr")[0][c] for c in "RGB"], axis=-1)
                 there = pixels.copy()
                 config.getProcessor(space, "ACES2065-1").getDefaultCPUProcessor().applyRGB(there)
                 write(self.folder / "ap0.exr", {c: there[..., k].copy() for k, c in enumerate("RGB")})
-                self.assertWorks("apply", "r.yaml", "ap0.exr", "relit.exr", "--space", "ACES2065-1")
+                self.assertWorks("apply", "--quiet", "r.yaml", "ap0.exr", "relit.exr", "--space", "ACES2065-1")
                 back = np.stack([read(self.folder / "relit.exr")[0][c] for c in "RGB"], axis=-1).copy()
                 config.getProcessor("ACES2065-1", space).getDefaultCPUProcessor().applyRGB(back)
                 np.testing.assert_allclose(ours, back, rtol=1e-5, atol=1e-6)
@@ -112,7 +112,7 @@ class ConfigOfTheShell(LutgenTest):
         for name in ("smpte.clf", "two.ccc"):
             with self.subTest(name):
                 shutil.copy(FILES / name, self.folder / name)
-                self.assertWorks("apply", name, "in.exr", "out.exr")
+                self.assertWorks("apply", "--quiet", name, "in.exr", "out.exr")
                 ours = np.stack([read(self.folder / "out.exr")[0][c] for c in "RGB"], axis=-1)
                 # The first channel is doubled, in the first correction of the collection too.
                 np.testing.assert_allclose(ours, pixels * np.float32([2, 1, 1]), rtol=1e-6)

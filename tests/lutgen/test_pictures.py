@@ -36,7 +36,7 @@ class Apply(LutgenTest):
         write(self.folder / name, {"R": pixels[..., 0].copy(), "G": pixels[..., 1].copy(), "B": pixels[..., 2].copy(), **extra})
 
     def applied(self, *arguments):
-        self.assertWorks("apply", *arguments, "out.exr")
+        self.assertWorks("apply", "--quiet", *arguments, "out.exr")
         channels, header = read(self.folder / "out.exr")
         return np.stack([channels[c] for c in "RGB"], axis=-1), channels, header
 

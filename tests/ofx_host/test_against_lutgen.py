@@ -2,6 +2,7 @@
 """The plug-in, in a host on OpenFX's HostSupport, against lutgen apply: the same recipes on the same pixels."""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -59,7 +60,10 @@ class AgainstLutgen(unittest.TestCase):
     def lutgen(self, rgb, recipe, engine):
         source, result = self.folder / "in.exr", self.folder / "out.exr"
         pictures.write_exr(source, rgb)
-        subprocess.run([BIN / "lutgen", "apply", "--engine", engine, recipe, source, result], check=True, timeout=600)
+        # The pixels are the recipe's, whatever the helper's header says.
+        space = re.search(r"^space: (.+)$", Path(recipe).read_text(), re.M)
+        subprocess.run([BIN / "lutgen", "apply", "--quiet", "--engine", engine, recipe, source, result, "--picture-space",
+                        space[1] if space else "ACEScg"], check=True, timeout=600)
         return pictures.read_exr(result)
 
     def recipe(self, text):

@@ -133,15 +133,15 @@ class Comparer {
   }
 
   CompareReport pictures() {
-    Picture a(m_arguments.a);
-    Picture b(m_arguments.b);
+    const Picture a(m_arguments.a);
+    const Picture b(m_arguments.b);
     if (a.width() != b.width() || a.height() != b.height()) {
       throw InputError(m_arguments.b, "size", std::to_string(b.width()) + " x " + std::to_string(b.height()),
                        "is not that of " + m_arguments.a + ", " + std::to_string(a.width()) + " x " +
                            std::to_string(a.height()) + "; crop or scale one of them");
     }
-    const auto linear = [&](Picture& picture, spectral::RgbSpace& space) {
-      std::vector<float> rgba = picture.pixels();
+    const auto linear = [&](const Picture& picture, spectral::RgbSpace& space) {
+      std::vector<float> rgba = picture.rgba();
       if (m_arguments.space.empty() && picture.isSrgb()) {
         space = m_library.colourSpace("Rec.709").linear;
         decodeSrgb(rgba);

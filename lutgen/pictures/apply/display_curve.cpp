@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apply/display_curve.h"
+
+#include <cmath>
+
+#include "metamer/spectral/text.h"
+
+namespace metamer::lutgen {
+
+double DisplayCurve::decoded(double signal) const {
+  const double size = std::abs(signal);
+  const double light = gamma             ? std::pow(size, *gamma)
+                       : size <= 0.04045 ? size / 12.92
+                                         : std::pow((size + 0.055) / 1.055, 2.4);
+  return std::copysign(light, signal);
+}
+
+double DisplayCurve::encoded(double light) const {
+  const double size = std::abs(light);
+  const double signal = gamma               ? std::pow(size, 1.0 / *gamma)
+                        : size <= 0.0031308 ? 12.92 * size
+                                            : 1.055 * std::pow(size, 1.0 / 2.4) - 0.055;
+  return std::copysign(signal, light);
+}
+
+std::optional<DisplayCurve> displayCurveNamed(const std::string& name) {
+  const std::string lower = spectral::lowerCase(spectral::trimmed(name));
+  if (lower == "srgb") {
+    return DisplayCurve{};
+  }
+  if (lower == "rec.1886" || lower == "bt.1886") {
+    return DisplayCurve{2.4};
+  }
+  if (lower.rfind("gamma", 0) == 0) {
+    const auto number = spectral::parseNumber(lower.substr(5));
+    if (number && *number >= 1.0 && *number <= 4.0) {
+      return DisplayCurve{*number};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace metamer::lutgen

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "exr/zip_block.h"
+
+#ifdef METAMER_HAS_LIBDEFLATE
+#include <libdeflate.h>
+
+#include <memory>
+#include <new>
+#else
+#include <zlib.h>
+#endif
+
+namespace metamer::lutgen {
+namespace {
+
+/// As OpenEXR has packed since 3.1.3.
+constexpr int kLevel = 4;
+
+#ifdef METAMER_HAS_LIBDEFLATE
+
+struct Free {
+  void operator()(libdeflate_compressor* compressor) const { libdeflate_free_compressor(compressor); }
+  void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
+};
+
+bool inflateInto(std::string_view packed, std::string& bytes) {
+  thread_local const std::unique_ptr<libdeflate_decompressor, Free> tool(libdeflate_alloc_decompressor());
+  if (!tool) {
+    throw std::bad_alloc();
+  }
+  // Without a place for the number of bytes, another number of bytes is a failure.
+  return libdeflate_zlib_decompress(tool.get(), packed.data(), packed.size(), bytes.data(), bytes.size(), nullptr) ==
+         LIBDEFLATE_SUCCESS;
+}
+
+/// 0 where they do not fit.
+std::size_t deflateInto(const std::string& bytes, std::string& packed) {
+  thread_local const std::unique_ptr<libdeflate_compressor, Free> tool(libdeflate_alloc_compressor(kLevel));
+  if (!tool) {
+    throw std::bad_alloc();
+  }
+  return libdeflate_zlib_compress(tool.get(), bytes.data(), bytes.size(), packed.data(), packed.size());
+}
+
+#else
+
+bool inflateInto(std::string_view packed, std::string& bytes) {
+  auto size = static_cast<uLongf>(bytes.size());
+  return uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
+                    static_cast<uLong>(packed.size())) == Z_OK &&
+         size == bytes.size();
+}
+
+/// 0 where they do not fit.
+std::size_t deflateInto(const std::string& bytes, std::string& packed) {
+  auto size = static_cast<uLongf>(packed.size());
+  return compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                   static_cast<uLong>(bytes.size()), kLevel) == Z_OK
+             ? size
+             : 0;
+}
+
+#endif
+
+}  // namespace
+
+std::string unzippedBlock(std::string_view packed, std::size_t size) {
+  thread_local std::string differences;
+  differences.resize(size);
+  if (size == 0 || !inflateInto(packed, differences)) {
+    return {};
+  }
+  for (std::size_t k = 1; k < size; ++k) {
+    differences[k] = static_cast<char>(differences[k - 1] + differences[k] - 128);
+  }
+  std::string block(size, '\0');
+  const std::size_t half = (size + 1) / 2;
+  for (std::size_t k = 0; k < size / 2; ++k) {
+    block[2 * k] = differences[k];
+    block[2 * k + 1] = differences[half + k];
+  }
+  if (size % 2 != 0) {
+    block[size - 1] = differences[half - 1];
+  }
+  return block;
+}
+
+std::string zippedBlock(std::string_view block) {
+  thread_local std::string differences;
+  thread_local std::string packed;
+  const std::size_t size = block.size();
+  if (size < 2) {
+    return std::string(block);
+  }
+  differences.resize(size);
+  const std::size_t half = (size + 1) / 2;
+  for (std::size_t k = 0; k < size / 2; ++k) {
+    differences[k] = block[2 * k];
+    differences[half + k] = block[2 * k + 1];
+  }
+  if (size % 2 != 0) {
+    differences[half - 1] = block[size - 1];
+  }
+  char before = differences[0];
+  for (std::size_t k = 1; k < size; ++k) {
+    const char here = differences[k];
+    differences[k] = static_cast<char>(here - before + 128);
+    before = here;
+  }
+  packed.resize(size - 1);
+  const std::size_t packedSize = deflateInto(differences, packed);
+  return packedSize == 0 ? std::string(block) : packed.substr(0, packedSize);
+}
+
+}  // namespace metamer::lutgen
