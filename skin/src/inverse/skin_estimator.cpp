@@ -39,6 +39,12 @@ Eigen::Array3d placeOf(const Vector3d& rgb, double mean) {
   return {(rgb[0] - rgb[1]) / mean, (rgb[2] - rgb[1]) / mean, std::log(mean)};
 }
 
+/// Whether a colour can be a skin's times a gain that a float holds. Written so that NaN cannot.
+bool canBeSkin(const Vector3d& rgb) {
+  constexpr double kMostLight = 1e37;
+  return rgb.allFinite() && rgb.mean() > 0 && rgb.mean() < kMostLight;
+}
+
 void requireThree(std::size_t values, std::size_t pixels) {
   if (values != 3 * pixels) {
     throw spectral::InputError("", "rgb", std::to_string(values),
@@ -177,8 +183,7 @@ SkinEstimator::SkinEstimator(const spectral::DataLibrary& library, const SkinVie
 SkinPixel SkinEstimator::estimate(const Vector3f& rgb) const {
   const Vector3d colour = rgb.cast<double>();
   const double mean = colour.mean();
-  // Written so that NaN is no skin.
-  if (!(mean > 0) || !colour.allFinite()) {
+  if (!canBeSkin(colour)) {
     return m_state->pixel(m_state->prior.mean, 0, rgb);
   }
   const Place place = m_state->place(colour, mean);
@@ -240,7 +245,7 @@ SkinIdentification SkinEstimator::identification() const {
 SkinPixel SkinEstimator::estimateBySolving(const Vector3d& rgb) const {
   const double mean = rgb.mean();
   const Vector3f given = rgb.cast<float>();
-  if (!(mean > 0) || !rgb.allFinite()) {
+  if (!canBeSkin(rgb)) {
     return m_state->pixel(m_state->prior.mean, 0, given);
   }
   const double gain = mean / std::clamp(mean, kDarkest, kBrightest);

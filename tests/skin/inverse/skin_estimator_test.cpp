@@ -88,7 +88,8 @@ TEST(SkinEstimator, ComesBackToEveryColour) {
   for (const Vector3f& colour :
        {Vector3f(0, 0, 1), Vector3f(0, 1, 0), Vector3f(0.05F, 1, 0.1F), Vector3f(0.9F, 0.05F, 0.08F),
         Vector3f(0.5F, 0.5F, 0.5F), Vector3f(0, 0, 0), Vector3f(-0.1F, 0.5F, 0.3F), Vector3f(-1, -1, -1),
-        Vector3f(1e-30F, 2e-30F, 1e-30F), Vector3f(65504, 3e4F, 2e4F)}) {
+        Vector3f(1e-30F, 2e-30F, 1e-30F), Vector3f(65504, 3e4F, 2e4F), Vector3f(3e38F, 2e38F, 1e38F),
+        Vector3f(1e-44F, 1e-44F, 0)}) {
     rgb.insert(rgb.end(), colour.begin(), colour.end());
   }
   std::vector<SkinPixel> pixels(rgb.size() / 3);
@@ -99,7 +100,7 @@ TEST(SkinEstimator, ComesBackToEveryColour) {
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     expectSkin(pixels[i]);
     const Vector3d before = Vector3f::Map(&rgb[3 * i]).cast<double>();
-    const double size = std::max(before.cwiseAbs().maxCoeff(), 1e-30);
+    const double size = std::max(before.cwiseAbs().maxCoeff(), 1e-37);
     difference.add(Vector3f::Map(&back[3 * i]).cast<double>() / size, before / size);
   }
 }
