@@ -37,6 +37,7 @@ SECTIONS = {
     "compilers": ("Whatever compiled it, and however many threads", "accuracy"),
     "hard_cases": ("Hard cases", "accuracy"),
     "growth": ("How cost grows", "performance"),
+    "apply": ("Frames through lutgen apply", "performance"),
     "ofx": ("The OFX plug-in beside OpenColorIO", "performance"),
     "renderer": ("The renderer's noise against time", "performance"),
     "wavelengths": ("The renderer's wavelengths", "performance"),
