@@ -2,6 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cstdint>
+#include <string>
 
 namespace metamer::spectral_ref {
 
@@ -9,6 +12,12 @@ namespace metamer::spectral_ref {
 void addRender(CLI::App& application);
 void addMerge(CLI::App& application);
 void addMeasure(CLI::App& application);
+
+/// FIRST:END of a flag. @throws CLI::ValidationError where it is none
+std::array<std::uint64_t, 2> parseRange(const std::string& flag, const std::string& text);
+
+/// @throws spectral::InputError where a picture's name does not end with .exr
+void requireExr(const std::string& file);
 
 /// One line on stderr.
 void warn(const std::string& message);

@@ -9,10 +9,13 @@
 #include <memory>
 #include <optional>
 
+#include "build_identity.h"
 #include "commands.h"
 #include "guide_dump.h"
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/interruption.h"
+#include "metamer/spectral/pending_file.h"
 #include "metamer/spectral_ref/checkpoint.h"
 #include "metamer/spectral_ref/exr_film.h"
 #include "metamer/spectral_ref/picture_error.h"
@@ -70,14 +73,6 @@ std::optional<std::array<Number, 2>> parsePair(const std::string& text, char sep
   return second.ec == std::errc() && second.ptr == end ? std::optional(pair) : std::nullopt;
 }
 
-std::array<std::uint64_t, 2> parseRange(const std::string& text) {
-  const auto range = parsePair<std::uint64_t>(text, ':');
-  if (!range || (*range)[0] >= (*range)[1] || (*range)[1] > kMostSamples) {
-    throw CLI::ValidationError("--samples", "'" + text + "' must be FIRST:END, such as 0:64");
-  }
-  return *range;
-}
-
 std::array<int, 2> parsePixel(const std::string& text, const FilmSettings& film) {
   const auto pixel = parsePair<int>(text, ',');
   if (!pixel || (*pixel)[0] < 0 || (*pixel)[1] < 0 || (*pixel)[0] >= film.width || (*pixel)[1] >= film.height) {
@@ -91,14 +86,14 @@ class RenderJob {
  public:
   explicit RenderJob(const RenderArguments& arguments)
       : m_arguments(arguments),
-        m_checkpoint(arguments.output + ".checkpoint"),
+        m_checkpoint(checkOutput(arguments)),
         m_library(spectral::DataLibrary::openDefault()),
         m_scene(readScene(arguments.scene, m_library)) {
     for (const std::string& warning : m_scene.warnings) {
       warn(warning);
     }
     if (!arguments.range.empty()) {
-      m_range = parseRange(arguments.range);
+      m_range = parseRange("--samples", arguments.range);
     } else if (arguments.samplesPerPixel > 0) {
       m_range[1] = arguments.samplesPerPixel;
     } else if (arguments.seconds > 0 || arguments.targetError > 0) {
@@ -118,8 +113,6 @@ class RenderJob {
     options.restir = arguments.restir == "hero"    ? Restir::Hero
                      : arguments.restir == "lanes" ? Restir::Lanes
                                                    : Restir::Off;
-    // Says so before hours of work if the picture could not be written.
-    checkOutput();
     m_renderer = std::make_unique<Renderer>(m_scene, options, m_range[0], arguments.threads);
     std::error_code none;
     if (arguments.resume && std::filesystem::exists(m_checkpoint, none)) {
@@ -137,10 +130,12 @@ class RenderJob {
     std::signal(SIGTERM, onSignal);
     const bool isFinished = renderUntilDone();
     if (!isFinished) {
-      saveCheckpoint();
-      throw std::runtime_error("stopped after " + std::to_string(m_renderer->nextSample() - m_range[0]) +
-                               " samples; go on with --resume");
+      const bool isSaved = saveCheckpoint();
+      warn("stopped after " + std::to_string(m_renderer->nextSample() - m_range[0]) + " samples; " +
+           (isSaved ? "go on with --resume" : "nothing is saved: no checkpoint could be written"));
+      spectral::endBySignal(stopSignal);
     }
+    spectral::endCleanlyBySignals("spectral_ref");
     if (!m_arguments.guideDump.empty()) {
       m_renderer->render(m_range[1], 0);  // learns, where a resumed render had nothing left to do
       writeGuideDump(*m_renderer, m_guidePixels, m_arguments.guideDump);
@@ -160,16 +155,12 @@ class RenderJob {
   }
 
  private:
-  void checkOutput() const {
-    const std::filesystem::path output = m_arguments.output;
-    std::error_code none;
-    const std::filesystem::path folder = output.has_parent_path() ? output.parent_path() : ".";
-    if (output.extension() != ".exr") {
-      throw InputError(output.string(), "extension", output.extension().string(), "must be .exr");
-    }
-    if (!std::filesystem::is_directory(folder, none)) {
-      throw InputError(output.string(), "output", "", "cannot be written: its folder is not there");
-    }
+  /// Says before hours of work what could not be written after them. @return the checkpoint's file
+  static std::filesystem::path checkOutput(const RenderArguments& arguments) {
+    requireExr(arguments.output);
+    spectral::requireWritable(arguments.output);
+    spectral::requireWritable(arguments.guideDump);
+    return arguments.output + ".checkpoint";
   }
 
   /// @return false where a signal stopped it
@@ -228,14 +219,16 @@ class RenderJob {
   }
 
   /// A checkpoint that cannot be written does not end the render: it is said once.
-  void saveCheckpoint() {
+  bool saveCheckpoint() {
     try {
       writeCheckpoint([this](const ByteSink& sink) { m_renderer->writeState(sink); }, m_checkpoint);
+      return true;
     } catch (const std::exception& error) {
       if (!m_hasWarned) {
         warn(std::string(error.what()) + " (the render goes on without checkpoints)");
       }
       m_hasWarned = true;
+      return false;
     }
   }
 
@@ -247,7 +240,8 @@ class RenderJob {
             {"wavelengths", std::to_string(m_scene.integrator.wavelengths)},
             {"guiding", m_arguments.guiding},
             {"restir", m_arguments.restir},
-            {"version", METAMER_VERSION}};
+            {"version", METAMER_VERSION},
+            {"build", METAMER_BUILD_IDENTITY}};
   }
 
   RenderArguments m_arguments;
@@ -262,6 +256,21 @@ class RenderJob {
 };
 
 }  // namespace
+
+std::array<std::uint64_t, 2> parseRange(const std::string& flag, const std::string& text) {
+  const auto range = parsePair<std::uint64_t>(text, ':');
+  if (!range || (*range)[0] >= (*range)[1] || (*range)[1] > kMostSamples) {
+    throw CLI::ValidationError(flag, "'" + text + "' must be FIRST:END, such as 0:64");
+  }
+  return *range;
+}
+
+void requireExr(const std::string& file) {
+  const std::string extension = std::filesystem::path(file).extension().string();
+  if (extension != ".exr") {
+    throw InputError(file, "extension", extension, "must be .exr");
+  }
+}
 
 void addRender(CLI::App& application) {
   CLI::App* command = application.add_subcommand("render", "Render a scene file to a multichannel OpenEXR picture");

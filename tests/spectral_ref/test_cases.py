@@ -84,6 +84,44 @@ class Cases(unittest.TestCase):
             (self.folder / "m.ply").write_bytes(data)
             self.render(scene)
 
+    def test_broken_objs(self):
+        scene = self.folder / "scene.yaml"
+        scene.write_text((CASES / "ply" / "neg.yaml").read_text().replace("neg.ply", "m.obj"))
+        mesh = self.folder / "m.obj"
+        body = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
+        for text, says in (
+            (body + "f 1 2 4\n", ("m.obj:6", "face '4'", "3 'v'")),
+            (body + "f 1/2 2/1 3/1\n", ("m.obj:6", "'vt'")),
+            (body + "f 1//1 2//9 3//1\n", ("m.obj:6", "'vn'")),
+            (body + "f -1 -2 -4\n", ("m.obj:6", "corner '-4'", "counts back")),
+            (body + "f 0 1 2\n", ("m.obj:6", "corner '0'")),
+            (body + "f 1 2 99999999999999999999\n", ("m.obj:6", "corner")),
+            (body + "f 1 2 3/1/1/1\n", ("m.obj:6", "V/VT/VN")),
+            (body + "f\n", ("m.obj:6", "no corner")),
+            ("v 0 0\n", ("m.obj:1", "cut short")),
+            ("v 0 0 nan\n", ("m.obj:1", "v 'nan'")),
+            ("v 0 0 0\0\n", ("m.obj:1", "no text")),
+            ("", ("m.obj",)),
+        ):
+            mesh.write_text(text)
+            self.refused(scene, *says)
+        # Faces before vertices, lines joined, materials that are devices: the triangle alone counts.
+        mesh.write_text("mtllib /dev/zero\nf 1 2 \\\n 3\nusemtl x\n" + body)
+        self.render(scene)
+        os.mkfifo(self.folder / "m.mtl")
+        mesh.write_text("mtllib m.mtl\nusemtl x\n" + body + "f -3 -2 -1\n")
+        self.render(scene)
+        mesh.unlink()
+        os.mkfifo(mesh)
+        self.refused(scene, "m.obj", "device, pipe")
+
+    def test_pictures_that_are_pipes_or_declare_too_much(self):
+        scene = self.folder / "scene.yaml"
+        scene.write_text("metamer_scene: 1\nfilm: {width: 4, height: 4}\nshapes: []\nlights:\n"
+                         "  - environment: {picture: pipe.exr}\n")
+        os.mkfifo(self.folder / "pipe.exr")
+        self.refused(scene, "pipe")
+
 
 if __name__ == "__main__":
     unittest.main()

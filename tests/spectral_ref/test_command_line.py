@@ -129,6 +129,34 @@ class CommandLine(unittest.TestCase):
         self.works("render", "scene.yaml", "-o", "other.exr", "--samples", "24:30", "--seed", "1")
         self.fails("merge", "a.exr", "other.exr", "-o", "c.exr", code=1, says="seed")
 
+    def test_parts_that_are_missing_or_damaged_are_named(self):
+        for name, samples in (("a", "0:4"), ("b", "6:8"), ("c", "4:6")):
+            self.works("render", "scene.yaml", "-o", name + ".exr", "--samples", samples)
+        self.fails("merge", "a.exr", "b.exr", "-o", "m.exr", "--expect", "0:12", code=1, says="samples '4:6 8:12'")
+        self.fails("merge", "a.exr", "b.exr", "-o", "m.exr", "--expect", "0:8", code=1, says="--samples 4:6")
+        self.fails("merge", "a.exr", "b.exr", "c.exr", "-o", "m.exr", "--expect", "0:6", code=1, says="more than 0:6")
+        for bad in ("8:0", "0", "nan:4"):
+            self.fails("merge", "a.exr", "-o", "m.exr", "--expect", bad, code=2, says="FIRST:END")
+        self.works("merge", "a.exr", "b.exr", "c.exr", "-o", "m.exr", "--expect", "0:8")
+        # A bit of the sums that changed on its way: in the pixels of the part, and in its description.
+        for change in (lambda part: part.channels["w000000"].pixels.__setitem__((3, 4), 7), None):
+            file = OpenEXR.File(str(self.folder / "b.exr"), separate_channels=True)
+            if change:
+                change(file.parts[1])
+            else:
+                state = file.parts[1].header["metamer:state"]
+                file.parts[1].header["metamer:state"] = state.replace("[[6,8]]", "[[5,7]]")
+                self.assertNotEqual(file.parts[1].header["metamer:state"], state)
+            file.write(str(self.folder / "damaged.exr"))
+            self.fails("merge", "a.exr", "damaged.exr", "-o", "m2.exr", code=1, says="damaged")
+        file = OpenEXR.File(str(self.folder / "b.exr"), separate_channels=True)
+        self.assertEqual(len(file.parts[0].header["metamer:build"]), 16)
+        # Half a file.
+        data = self.read("b.exr")
+        (self.folder / "half.exr").write_bytes(data[:len(data) // 2])
+        self.fails("merge", "a.exr", "half.exr", "-o", "m2.exr", code=1, says="half.exr")
+        self.assertFalse((self.folder / "m2.exr").exists())
+
     def test_guide_dump(self):
         scene = SCENE.replace("illuminant: A", "illuminant: FL11")
         (self.folder / "scene.yaml").write_text(scene)
@@ -158,7 +186,11 @@ class CommandLine(unittest.TestCase):
                 while not checkpoint.exists() and process.poll() is None:
                     time.sleep(0.01)
                 process.send_signal(number)
-                process.communicate()
+                said = process.communicate()[1].decode()
+                self.assertEqual(process.returncode, -number)
+                self.assertEqual(re.sub("[0-9]+", "N", said), {
+                    signal.SIGKILL: "",
+                    signal.SIGINT: "spectral_ref: stopped after N samples; go on with --resume\n"}[number])
                 self.assertTrue(checkpoint.exists())
                 self.assertFalse((self.folder / "cut.exr").exists())
                 self.fails("render", "scene.yaml", "-o", "cut.exr", "--spp", "400", "--resume", "--seed", "1",

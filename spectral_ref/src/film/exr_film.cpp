@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "film/check_sum.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
 
@@ -17,6 +18,7 @@ namespace {
 using spectral::InputError;
 
 constexpr const char* kStateAttribute = "metamer:state";
+constexpr const char* kSumAttribute = "metamer:checksum";
 constexpr const char* kNotePrefix = "metamer:";
 constexpr int kWordsASum = 4;
 
@@ -27,14 +29,6 @@ std::string binName(double nm) {
   std::string name = text;
   name[name.find('.', 3)] = ',';
   return name;
-}
-
-std::string rangesText(const SampleRanges& ranges) {
-  std::string text;
-  for (const auto& [begin, end] : ranges) {
-    text += (text.empty() ? "" : " ") + std::to_string(begin) + ":" + std::to_string(end);
-  }
-  return text;
 }
 
 OIIO::ImageSpec pictureSpec(const Film& film, const FilmNotes& notes, bool withReplicates) {
@@ -81,6 +75,20 @@ nlohmann::json stateJson(const Film& film, const FilmNotes& notes) {
   return json;
 }
 
+/// Over all that a merge takes from a part: its description and its sums.
+std::string checkSumOf(const Film& film, const FilmNotes& notes) {
+  CheckSum sum;
+  const auto width = static_cast<std::size_t>(film.format().width);
+  for (int y = 0; y < film.format().height; ++y) {
+    sum.add(film.pixel(static_cast<std::size_t>(y) * width), width * film.channels() * sizeof(ExactSum));
+  }
+  const std::string description = stateJson(film, notes).dump();
+  sum.add(description.data(), description.size());
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum.value()));
+  return text;
+}
+
 /// The exact sums as words, least first: 32 bits fit a channel of OpenEXR.
 OIIO::ImageSpec stateSpec(const Film& film, const FilmNotes& notes) {
   const FilmFormat& format = film.format();
@@ -96,6 +104,7 @@ OIIO::ImageSpec stateSpec(const Film& film, const FilmNotes& notes) {
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", "");  // else the clock's: the same render gives the same file
   spec.attribute(kStateAttribute, stateJson(film, notes).dump());
+  spec.attribute(kSumAttribute, checkSumOf(film, notes));
   return spec;
 }
 
@@ -143,6 +152,14 @@ std::optional<std::pair<Film, FilmNotes>> filmFromJson(const nlohmann::json& jso
 }
 
 }  // namespace
+
+std::string rangesText(const SampleRanges& ranges) {
+  std::string text;
+  for (const auto& [begin, end] : ranges) {
+    text += (text.empty() ? "" : " ") + std::to_string(begin) + ":" + std::to_string(end);
+  }
+  return text;
+}
 
 void writeExr(const Film& film, const FilmNotes& notes, const std::filesystem::path& file, bool withState,
               bool withReplicates) {
@@ -217,8 +234,11 @@ std::pair<Film, FilmNotes> readExrState(const std::filesystem::path& file) {
       const auto width = static_cast<std::size_t>(spec.width);
       for (int y = 0; y < spec.height; ++y) {
         if (!input->read_scanline(y, 0, OIIO::TypeDesc::UINT32, film.pixel(static_cast<std::size_t>(y) * width))) {
-          throw InputError(where, "", "", "cannot be read: " + input->geterror());
+          throw InputError(where, "state", "", "is damaged, render it again: " + input->geterror());
         }
+      }
+      if (spec.get_string_attribute(kSumAttribute) != checkSumOf(film, notes)) {
+        throw damaged;
       }
       return {std::move(film), std::move(notes)};
     } catch (const nlohmann::json::exception&) {

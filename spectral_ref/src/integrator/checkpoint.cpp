@@ -10,38 +10,12 @@
 #include <system_error>
 #include <vector>
 
+#include "film/check_sum.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
-#include "scene_file/fingerprint.h"
 
 namespace metamer::spectral_ref {
 namespace {
-
-/// Of bytes in pieces, all but the last a whole number of words: a checkpoint may be a gigabyte.
-class CheckSum {
- public:
-  static constexpr std::size_t kWord = sizeof(std::uint64_t);
-
-  void add(const unsigned char* bytes, std::size_t size) {
-    std::size_t i = 0;
-    for (; i + kWord <= size; i += kWord) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes + i, kWord);
-      m_mixed = (m_mixed ^ word) * 0x9e3779b97f4a7c15U;
-      m_mixed ^= m_mixed >> 32U;
-    }
-    m_rest.add(bytes + i, size - i);
-  }
-  std::uint64_t value() const {
-    Fingerprint sum = m_rest;
-    sum.add(&m_mixed, sizeof m_mixed);
-    return sum.value();
-  }
-
- private:
-  std::uint64_t m_mixed = 0;
-  Fingerprint m_rest;
-};
 
 /// Bytes that are written, read and summed at a time.
 constexpr std::size_t kPiece = std::size_t{1} << 20U;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_file/scene_mesh.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -11,6 +12,7 @@
 #include <system_error>
 
 #include "metamer/spectral/input_error.h"
+#include "scene_file/obj_check.h"
 #include "scene_file/ply_check.h"
 
 namespace metamer::spectral_ref {
@@ -33,6 +35,21 @@ bool isSound(const std::array<std::uint32_t, 3>& triangle, const std::vector<std
   return a.cross(b).norm() > 1e-9 * std::max(a.squaredNorm(), b.squaredNorm());
 }
 
+/// The mesh's own file and no other: materials and textures that it names are not read, and may be devices.
+class OneFile : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFile(std::string path) : m_path(std::move(path)) {}
+  bool Exists(const char* path) const override { return m_path == path; }
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    return m_path == path ? DefaultIOSystem::Open(path, mode) : nullptr;
+  }
+
+ private:
+  std::string m_path;
+};
+
+constexpr std::uintmax_t kLargestMesh = std::uintmax_t{4} << 30U;
+
 }  // namespace
 
 Mesh readMesh(const SceneValue& file, const std::filesystem::path& folder) {
@@ -45,14 +62,18 @@ Mesh readMesh(const SceneValue& file, const std::filesystem::path& folder) {
   if (std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none)) {
     throw file.error("is a device, pipe or folder; give a mesh file");
   }
-  if (extension == ".ply" && std::filesystem::exists(path, none)) {
+  if (std::filesystem::exists(path, none)) {
+    if (std::filesystem::file_size(path, none) > kLargestMesh) {
+      throw file.error("is larger than 4 GiB; split the mesh");
+    }
     try {
-      checkPly(path);
+      extension == ".ply" ? checkPly(path) : checkObj(path);
     } catch (const spectral::InputError& error) {
       throw file.error("", error.what());
     }
   }
   Assimp::Importer importer;
+  importer.SetIOHandler(new OneFile(path.string()));  // the importer's from here on
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (scene == nullptr) {
     throw file.error("", "'" + path.string() + "' cannot be read: " + importer.GetErrorString());

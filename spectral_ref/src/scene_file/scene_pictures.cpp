@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 
 namespace metamer::spectral_ref {
 namespace {
@@ -21,6 +22,10 @@ struct Pixels {
 
 Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / value.text();
+  std::error_code none;
+  if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) {
+    throw value.error("is a device, pipe or folder; give a picture file");
+  }
   const auto input = OIIO::ImageInput::open(file.string());
   if (!input) {
     const std::string reason = OIIO::geterror();
@@ -30,6 +35,10 @@ Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) 
   constexpr std::uint64_t kMostPixels = 1U << 26U;
   if (spec.image_pixels() > kMostPixels || spec.deep || spec.image_pixels() == 0) {
     throw value.error("", "'" + file.string() + "' is empty, deep or has more than 2^26 pixels; give a plain picture");
+  }
+  constexpr std::uint64_t kMostValues = 1U << 30U;
+  if (spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMostValues) {
+    throw value.error("", "'" + file.string() + "' has more than 2^30 values; give fewer pixels or channels");
   }
   Pixels pixels{spec.width, spec.height, spec.nchannels, {}};
   pixels.values.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));

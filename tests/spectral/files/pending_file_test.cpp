@@ -2,8 +2,13 @@
 #include "metamer/spectral/pending_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
+#include <thread>
+
+#include "metamer/spectral/interruption.h"
 #include "spectral/fixture.h"
 #include "spectral/temporary_folder.h"
 
@@ -35,6 +40,91 @@ TEST(PendingFileTest, RefusesPlacesThatCannotBeWritten) {
     std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read);
     EXPECT_NE(errorOf([&] { PendingFile file(folder / "out.cube"); }).find("cannot be written"), std::string::npos);
   }
+}
+
+TEST(PendingFileTest, KeepsTheModeAndFollowsLinks) {
+  const TemporaryFolder folder;
+  namespace fs = std::filesystem;
+  fs::create_directory(folder / "there");
+  writeWholeFile(folder / "there" / "real.cube", "old");
+  fs::permissions(folder / "there" / "real.cube", fs::perms(0640));
+  fs::create_symlink("there/real.cube", folder / "link.cube");
+  fs::create_symlink("link.cube", folder / "link2.cube");
+  writeWholeFile(folder / "link2.cube", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link2.cube"));
+  EXPECT_TRUE(fs::is_symlink(folder / "link.cube"));
+  EXPECT_EQ(contentsOf(folder / "there" / "real.cube"), "new");
+  EXPECT_EQ(fs::status(folder / "there" / "real.cube").permissions(), fs::perms(0640));
+  // A link to what is not there yet; links in a circle.
+  fs::create_symlink("there/later.cube", folder / "early.cube");
+  writeWholeFile(folder / "early.cube", "x");
+  EXPECT_EQ(contentsOf(folder / "there" / "later.cube"), "x");
+  fs::create_symlink("b.cube", folder / "a.cube");
+  fs::create_symlink("a.cube", folder / "b.cube");
+  EXPECT_NE(errorOf([&] { PendingFile file(folder / "a.cube"); }).find("circle"), std::string::npos);
+}
+
+TEST(PendingFileTest, DevicesAndPipesAreWrittenInto) {
+  const TemporaryFolder folder;
+  const auto pipe = folder / "pipe.cube";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_TRUE(isStream(pipe));
+  std::string read;
+  std::thread reader([&] { read = contentsOf(pipe); });
+  writeWholeFile(pipe, std::string(200000, 'x'));
+  reader.join();
+  EXPECT_EQ(read, std::string(200000, 'x'));
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  writeWholeFile("/dev/null", "x");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_FALSE(isStream(folder / "new.cube"));
+  EXPECT_NE(errorOf([&] { PendingFile file("/dev/no_such_device"); }).find("no device"), std::string::npos);
+  if (std::filesystem::exists("/dev/full")) {
+    EXPECT_NE(errorOf([&] { writeWholeFile("/dev/full", "x"); }).find("/dev/full: output: cannot be written"),
+              std::string::npos);
+  }
+}
+
+TEST(PendingFileTest, TheLongestNameIsNoFailure) {
+  const TemporaryFolder folder;
+  const std::string name = std::string(250, 'n') + ".cube";
+  writeWholeFile(folder / name, "x");
+  EXPECT_EQ(contentsOf(folder / name), "x");
+  EXPECT_NE(errorOf([&] { PendingFile file(folder / ("n" + name)); }).find("too long"), std::string::npos);
+}
+
+// A program of its own: signals end it.
+TEST(InterruptionTest, ASignalRemovesWhatIsUnfinished) {
+  const TemporaryFolder folder;
+  const auto run = [&](int signal, bool isHeld) {
+    EXPECT_EXIT(
+        {
+          endCleanlyBySignals("program");
+          std::filesystem::create_directory(folder / "luts");
+          const Unfinished made(folder / "luts");
+          PendingFile first(folder / "luts" / "a.cube");
+          PendingFile second(folder / "b.cube");
+          second.write("new");
+          if (isHeld) {
+            const SignalsWait wait;
+            std::raise(signal);
+            second.commit();
+          } else {
+            std::raise(signal);
+          }
+          std::_Exit(0);
+        },
+        testing::KilledBySignal(signal), isHeld ? "files that are complete: 1\n" : "; nothing was written\n");
+  };
+  writeWholeFile(folder / "b.cube", "old");
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    run(signal, false);
+    EXPECT_EQ(contentsOf(folder / "b.cube"), "old");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  }
+  run(SIGTERM, true);
+  EXPECT_EQ(contentsOf(folder / "b.cube"), "new");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 // /dev/full takes no byte: what a full disk does.

@@ -13,6 +13,9 @@ namespace metamer::spectral_ref {
 /// What a picture file says beside its channels; two parts merge only where all of it is the same.
 using FilmNotes = std::vector<std::pair<std::string, std::string>>;
 
+/// "0:16 32:48".
+std::string rangesText(const SampleRanges& ranges);
+
 /// Writes a film as multichannel OpenEXR, float32:
 ///   R, G, B              colour in the film's space
 ///   Y                    luminance of the pixel
@@ -25,8 +28,8 @@ using FilmNotes = std::vector<std::pair<std::string, std::string>>;
 void writeExr(const Film& film, const FilmNotes& notes, const std::filesystem::path& file, bool withState,
               bool withReplicates);
 
-/// A film and its notes from a file written with its state.
-/// @throws spectral::InputError: not such a file
+/// A film and its notes from a file written with its state, checked by the sum that it carries.
+/// @throws spectral::InputError: not such a file, a damaged one
 std::pair<Film, FilmNotes> readExrState(const std::filesystem::path& file);
 
 /// Adds up films of the same picture. @throws spectral::InputError where samples overlap or formats differ

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# Writes a header with a hash over sources, compiler and flags: two programs of one identity compute the same bits.
+# Run by cmake -P with OUTPUT, ROOT, FOLDERS (joined by commas) and FLAGS.
+string(REPLACE "," ";" folders "${FOLDERS}")
+set(all "${FLAGS}")
+foreach(folder IN LISTS folders)
+  file(GLOB_RECURSE sources RELATIVE "${ROOT}" "${ROOT}/${folder}/*.cpp" "${ROOT}/${folder}/*.h")
+  list(SORT sources)
+  foreach(source IN LISTS sources)
+    file(SHA256 "${ROOT}/${source}" hash)
+    string(APPEND all "${source} ${hash}\n")
+  endforeach()
+endforeach()
+string(SHA256 identity "${all}")
+string(SUBSTRING "${identity}" 0 16 identity)
+set(text "#pragma once\n#define METAMER_BUILD_IDENTITY \"${identity}\"\n")
+if(EXISTS "${OUTPUT}")
+  file(READ "${OUTPUT}" old)
+endif()
+if(NOT "${old}" STREQUAL "${text}")
+  file(WRITE "${OUTPUT}" "${text}")
+endif()
