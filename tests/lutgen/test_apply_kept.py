@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """lutgen apply keeps all of a file that is not its colours: types, parts, tiles, windows, attributes, other channels."""
 
+import resource
 import shutil
+import signal
+import subprocess
 import unittest
 from pathlib import Path
 
 import numpy as np
 import OpenEXR
+from PIL import Image
 
-from lutgen import LutgenTest, lutgen
+from lutgen import LUTGEN, LutgenTest, lutgen
 
 CASES = Path(__file__).parent / "pictures"
 RECIPE = "metamer: 1\nscene: {kind: smooth}\ninput: {illuminant: D65}\noutput: {illuminant: A}\n"
@@ -305,6 +309,25 @@ class Hostile(LutgenTest):
                 self.assertFails("apply", "r.yaml", "good.exr", output, says=[says])
         self.assertFails("apply", "r.yaml", "good.exr", "out.exr", "-d", "uint16", says=["uint16", "half or float"])
         self.assertFails("apply", "r.yaml", "good.exr", "out.exr", "--compression", "lzw", says=["lzw", "piz"])
+
+    def test_a_full_disk(self):
+        random = np.random.default_rng(2).random((90, 120, 3))
+        Image.fromarray((255 * random).astype(np.uint8)).save(self.folder / "in.png")
+
+        def full():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        before = sorted(self.folder.iterdir())
+        for output in ("out.png", "out.jpg", "out.tif", "out.dpx", "out.exr"):
+            with self.subTest(output):
+                type_ = ["-d", "half"] if output == "out.exr" else []
+                run = subprocess.run([LUTGEN, "apply", "r.yaml", "in.png", output, *type_], cwd=self.folder, preexec_fn=full,
+                                     capture_output=True, text=True, timeout=300)
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+                self.assertIn(f"lutgen: {output}: output: cannot be written", run.stderr)
+                self.assertEqual(sorted(self.folder.iterdir()), before)
 
     def test_in_place(self):
         before = parts_of(self.folder / "good.exr")

@@ -341,7 +341,7 @@ void AnyPicture::change(Part& part, const PixelFunction& pixels, int threads) co
   part.samples = std::move(changed);
 }
 
-void AnyPicture::writeParts(ImageOutput& output, const std::string& name) const {
+void AnyPicture::writeParts(ImageOutput& output, const std::string& path, const std::string& name) const {
   std::vector<ImageSpec> specs;
   for (const Part& part : m_parts) {
     specs.push_back(part.after);
@@ -351,10 +351,10 @@ void AnyPicture::writeParts(ImageOutput& output, const std::string& name) const 
       throw InputError(name, "output", "", "cannot be written: " + spectral::shortened(output.geterror(), 160));
     }
   };
-  require(specs.size() == 1 ? output.open(name, specs[0])
-                            : output.open(name, static_cast<int>(specs.size()), specs.data()));
+  require(specs.size() == 1 ? output.open(path, specs[0])
+                            : output.open(path, static_cast<int>(specs.size()), specs.data()));
   for (std::size_t p = 0; p < m_parts.size(); ++p) {
-    require(p == 0 || output.open(name, specs[p], ImageOutput::AppendSubimage));
+    require(p == 0 || output.open(path, specs[p], ImageOutput::AppendSubimage));
     require(output.write_image(TypeDesc::UNKNOWN, m_parts[p].samples.data()));
   }
   require(output.close());
@@ -375,10 +375,10 @@ void AnyPicture::write(const std::filesystem::path& outputFile, const PixelFunct
     // In memory first: what the library writes to a full disk may go unsaid.
     OIIO::Filesystem::IOVecOutput memory;
     output->set_ioproxy(&memory);
-    writeParts(*output, name);
+    writeParts(*output, name, name);
     pending.write({reinterpret_cast<const char*>(memory.buffer().data()), memory.buffer().size()});
   } else {
-    writeParts(*output, pending.path().string());
+    writeParts(*output, pending.path().string(), name);
     // Read again, as the library may not say that the disk is full.
     const auto again = ImageInput::open(pending.path().string());
     std::vector<char> samples(again ? again->spec().image_bytes(true) : 0);

@@ -58,7 +58,8 @@ class AnyPicture {
 
   void read(OIIO::ImageInput& input, std::size_t index);
   void change(Part& part, const PixelFunction& pixels, int threads) const;
-  void writeParts(OIIO::ImageOutput& output, const std::string& name) const;
+  /// @param name  for messages
+  void writeParts(OIIO::ImageOutput& output, const std::string& path, const std::string& name) const;
 
   std::string m_file;
   std::string m_format;
