@@ -13,6 +13,9 @@ from PIL import Image
 
 from lutgen import LutgenTest, lutgen
 
+# OpenColorIO's own configs are newer than 2.1, which lutgen may be linked with.
+LINKED = tuple(int(part) for part in lutgen("--version").stdout.split("OpenColorIO ")[1].split(")")[0].split(".")[:2])
+
 RECIPE = "metamer: 1\nscene: {kind: smooth}\nspace: %s\ninput: {illuminant: D65}\noutput: {illuminant: A}\n"
 REC709 = (0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329)
 
@@ -96,8 +99,9 @@ class Spaces(LutgenTest):
         self.assertWorks("apply", "same.yaml", "in.png", "out.png")
         np.testing.assert_array_equal(np.array(Image.open(self.folder / "out.png")), before)
         # Through a space and back, as another space is the recipe's.
+        out = "sRGB - Texture" if LINKED >= (2, 5) else "sRGB"
         (self.folder / "cg_same.yaml").write_text((RECIPE % "ACEScg").replace("A}", "D65}"))
-        self.assertWorks("apply", "cg_same.yaml", "in.png", "out.png", "--output-space", "sRGB - Texture")
+        self.assertWorks("apply", "cg_same.yaml", "in.png", "out.png", "--output-space", out)
         self.assertLessEqual(np.abs(np.array(Image.open(self.folder / "out.png")).astype(int) - before).max(), 0)
 
     def test_jpeg(self):
@@ -168,6 +172,7 @@ class Spaces(LutgenTest):
         self.assertWorks("apply", "cg.yaml", "in.exr", "stated.exr", "--picture-space", "ACEScg")
         np.testing.assert_array_equal(self.pixels("out.exr"), self.pixels("stated.exr"))
 
+    @unittest.skipIf(LINKED < (2, 5), "the linked OpenColorIO has no config of its own")
     def test_names_of_spaces(self):
         pixels = codes(1000, np.float64) / 1000
         self.exr("in.exr", pixels)
