@@ -2,7 +2,6 @@
 #include "metamer/ocio/bake.h"
 
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 
@@ -10,10 +9,13 @@
 #include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/ocio/working_space.h"
+#include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
 #include "overrides.h"
+#include "progress.h"
 #include "run.h"
+#include "words.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -81,11 +83,8 @@ void report(const ocio::Certificate& certificate) {
   }
   for (const auto& tried : certificate.choice->tried) {
     const bool isChosen = &tried == &certificate.choice->tried.back();
-    std::cout << ocio::nameOf(tried.representation);
-    if (tried.size > 0) {
-      std::cout << " of " << tried.size << " nodes";
-    }
-    std::cout << ": p99 " << tried.p99 << ", max " << tried.max << (isChosen ? ", chosen" : "") << '\n';
+    words() << representationText(tried.representation, tried.size) << ": p99 " << tried.p99 << ", max " << tried.max
+            << (isChosen ? ", chosen" : "") << '\n';
   }
 }
 
@@ -102,32 +101,48 @@ void bake(const BakeArguments& arguments) {
   if (arguments.toStdout && arguments.format.empty()) {
     throw CLI::ValidationError("--stdout", "needs --format");
   }
+  if (!arguments.toStdout) {
+    spectral::requireWritable(arguments.output);
+  }
   const ocio::LutFormat& format =
       arguments.toStdout ? ocio::lutFormatNamed(arguments.format) : ocio::lutFormat(arguments.output, arguments.format);
   if (!arguments.luts.empty()) {
+    if (!arguments.toStdout && spectral::isStream(arguments.output)) {
+      standardOutput();
+    }
     const std::vector<std::filesystem::path> luts(arguments.luts.begin(), arguments.luts.end());
     const std::string text = ocio::convertedLuts(luts, format, arguments.size, arguments.shaperSize);
     if (arguments.toStdout) {
-      std::cout << text;
+      standardOutput() << text;
     } else {
       spectral::writeWholeFile(arguments.output, text);
     }
+    summarise((arguments.toStdout ? format.name : arguments.output) + ": " + std::to_string(luts.size()) +
+              (luts.size() == 1 ? " LUT file" : " LUT files") + " written anew");
     return;
   }
   const auto library = spectral::DataLibrary::openDefault();
   const sip::Recipe recipe = recipeOf(arguments, library);
-  const ocio::BakeOptions options = optionsOf(arguments);
-  if (arguments.toStdout) {
-    const ocio::BakedText baked = ocio::bakeText(recipe, library, format.name, options);
-    note(baked.certificate.notes);
-    note(baked.certificate.warnings());
-    std::cout << baked.text;
-  } else {
-    const ocio::Certificate certificate = ocio::bakeFile(recipe, library, arguments.output, format.name, options);
-    note(certificate.notes);
-    note(certificate.warnings());
-    report(certificate);
+  ocio::BakeOptions options = optionsOf(arguments);
+  if (arguments.toStdout || spectral::isStream(arguments.output)) {
+    standardOutput();  // no word may come between
   }
+  const std::string what = arguments.toStdout ? format.name : arguments.output;
+  const ocio::Certificate certificate = [&] {
+    Progress progress(what);
+    options.progress = [&progress](double share) { progress.show(share); };
+    if (!arguments.toStdout) {
+      return ocio::bakeFile(recipe, library, arguments.output, format.name, options);
+    }
+    ocio::BakedText baked = ocio::bakeText(recipe, library, format.name, options);
+    standardOutput() << baked.text;
+    return std::move(baked.certificate);
+  }();
+  note(certificate.notes);
+  note(certificate.warnings());
+  report(certificate);
+  summarise(what + ": " + representationText(certificate.representation, certificate.size) +
+            spectral::formatted(", p99 %.3g", certificate.error.p99));
 }
 
 }  // namespace
@@ -143,6 +158,7 @@ void addBake(CLI::App& application) {
   std::vector<std::string> formats;
   for (const ocio::LutFormat& format : ocio::lutFormats()) {
     formats.push_back(format.name);
+    formats.push_back(format.extension.substr(1));
   }
   command->add_option("--format", arguments->format, "Format (lutgen list formats); by the extension by default")
       ->check(CLI::IsMember(formats, CLI::ignore_case));

@@ -31,5 +31,6 @@ inline constexpr std::array<CommandName, 4> kPictureCommands = {kApply, kCompare
 void addBake(CLI::App& application);
 void addList(CLI::App& application);
 void addConfig(CLI::App& application);
+void addDiff(CLI::App& application);
 
 }  // namespace metamer::lutgen

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "commands.h"
 #include "metamer/ocio/config_writer.h"
 #include "metamer/ocio/log_cube.h"
+#include "metamer/spectral/formatted.h"
+#include "progress.h"
 #include "run.h"
 
 namespace metamer::lutgen {
@@ -27,7 +31,11 @@ void writeConfig(const ConfigArguments& arguments) {
   }
   ocio::ConfigOptions options = arguments.options;
   options.base = arguments.base;
-  const ocio::ConfigReport report = ocio::writeConfig(recipes, library, arguments.output, options);
+  const ocio::ConfigReport report = [&] {
+    Progress progress(arguments.output);
+    options.progress = [&progress](double share) { progress.show(share); };
+    return ocio::writeConfig(recipes, library, arguments.output, options);
+  }();
   for (const ocio::ConfigEntry& entry : report.entries) {
     note(entry.certificate.notes);
     if (options.tolerance && entry.certificate.error.p99 > *options.tolerance) {
@@ -43,6 +51,19 @@ void writeConfig(const ConfigArguments& arguments) {
               << " is later than OpenColorIO " << OCIO_NAMESPACE::GetVersion()
               << " knows; what is added was checked in a config of profile 2.1\n";
   }
+  double worst = 0;
+  std::set<std::string> kinds;
+  for (const ocio::ConfigEntry& entry : report.entries) {
+    worst = std::max(worst, entry.certificate.error.p99);
+    kinds.insert(ocio::nameOf(entry.certificate.representation));
+  }
+  std::string representations;
+  for (const std::string& kind : kinds) {
+    representations += (representations.empty() ? "" : ", ") + kind;
+  }
+  const std::size_t count = report.entries.size();
+  summarise(arguments.output + ": " + std::to_string(count) + (count == 1 ? " look, " : " looks, ") + representations +
+            spectral::formatted(", p99 %.3g%s", worst, count == 1 ? "" : " at most"));
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ void addCommands(CLI::App& application) {
   addBake(application);
   addList(application);
   addConfig(application);
+  addDiff(application);
   for (const CommandName& command : kPictureCommands) {  // for the help alone
     command.addTo(application)->callback([] { throw CLI::ValidationError("command", "must come first"); });
   }

@@ -30,11 +30,11 @@ std::string fromWorkingFolder(const std::string& nameOrFile, const std::vector<s
   return std::filesystem::absolute(file).lexically_normal().string() + (column.empty() ? "" : ":" + column);
 }
 
-/// The whole text as a finite number.
+/// The whole text as a number.
 std::optional<double> number(const std::string& text) {
   double value = 0;
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+  if (failure != std::errc{} || end != text.data() + text.size()) {
     return std::nullopt;
   }
   return value;
@@ -52,8 +52,8 @@ std::vector<sip::RecipeFilter> filtersFrom(const std::vector<std::string>& texts
     const std::size_t colon = text.rfind(':');
     if (colon != std::string::npos && colon > 0) {
       if (const std::optional<double> density = number(text.substr(colon + 1))) {
-        if (*density < 0) {
-          throw InputError(flag, "density", text, "is below 0; a density is 0 or more");
+        if (!std::isfinite(*density) || *density < 0) {
+          throw InputError(flag, "density", text, "must be 0 or more, and finite; 1 is the filter as it is");
         }
         filter = {text.substr(0, colon), *density};
       }
@@ -91,7 +91,7 @@ sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::strin
     scene.set = fromWorkingFolder(parts[1], names);
   } else if (isSkin && parts.size() > 1) {
     const std::optional<double> strength = number(parts[1]);
-    if (!strength || *strength < 0.0 || *strength > 1.0) {
+    if (!strength || !(*strength >= 0.0 && *strength <= 1.0)) {
       throw InputError("--scene", "strength", parts[1], "must be a number from 0 to 1; " + form);
     }
     scene.strength = *strength;

@@ -2,11 +2,9 @@
 #pragma once
 
 #include "commands.h"
+#include "run.h"
 
 namespace metamer::lutgen {
-
-/// Exit code of a verdict: what was measured is beyond the tolerance.
-inline constexpr int kExceeded = 3;
 
 /// Each adds one subcommand, which does its work when the command line has been parsed.
 void addApply(CLI::App& application);

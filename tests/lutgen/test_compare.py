@@ -2,6 +2,9 @@
 """lutgen compare and lutgen config, as a build server calls them."""
 
 import json
+import os
+import re
+import shutil
 import unittest
 import xml.etree.ElementTree
 
@@ -88,6 +91,76 @@ class Compare(LutgenTest):
         # CI finds out that a look changed.
         (self.folder / "night.yaml").write_text(NIGHT.replace("HP1", "FL11"))
         self.compared("night.yaml", "c.ocio", "--tolerance", "1", code=3)
+
+    def test_a_certificate_judges_its_file(self):
+        (self.folder / "lamp.csv").write_text("nm,power\n380,1\n560,3\n780,9\n")
+        recipe = NIGHT.replace("HP1", "lamp.csv")
+        (self.folder / "night.yaml").write_text(recipe)
+        self.assertWorks("bake", "night.yaml", "-o", "a.ctf", "--size", "9")
+        for tolerance in ([], ["--tolerance", "certificate"]):
+            report = self.compared("night.yaml", "a.ctf", *tolerance)
+            self.assertEqual((report["tolerance"], report["certificate"]["stale"]),
+                             ({"by": "certificate", "passed": True}, []))
+        # A number is as before; without a certificate nobody judges.
+        self.assertEqual(self.compared("a.ctf", "night.yaml", "--tolerance", "90")["tolerance"]["value"], 90)
+        os.rename(self.folder / "a.ctf.json", self.folder / "kept.json")
+        self.assertNotIn("tolerance", self.compared("night.yaml", "a.ctf", "--space", "ACEScg"))
+        self.assertFails("compare", "night.yaml", "a.ctf", "--tolerance", "certificate", says=["a.ctf", "no certificate"])
+        os.rename(self.folder / "kept.json", self.folder / "a.ctf.json")
+        self.assertFails("compare", "a.ctf", "a.ctf", "--tolerance", "certificate", says=["recipe"])
+
+        def cause(*arguments, code=3, word="cause"):
+            run = lutgen("compare", "night.yaml", *(arguments or ["a.ctf"]), folder=self.folder)
+            self.assertEqual(run.returncode, code, run.stdout + run.stderr)
+            return re.search(rf"^{word}: (.*)$", run.stdout, re.MULTILINE)[1]
+
+        # A recipe field, a lamp's contents, another file under the name.
+        (self.folder / "night.yaml").write_text(recipe.replace("0.5", "0.9"))
+        self.assertEqual(cause(), "recipe: output.adaptation was 0.5, is 0.9")
+        (self.folder / "night.yaml").write_text(recipe)
+        lamp = (self.folder / "lamp.csv").read_text()
+        (self.folder / "lamp.csv").write_text(lamp.replace("780,9", "780,1"))
+        self.assertRegex(cause(), r"^inputs: output\.illuminant: the contents of lamp\.csv changed, sha256 [0-9a-f]{8}\.\.\. "
+                                  r"is [0-9a-f]{8}\.\.\. now$")
+        (self.folder / "lamp.csv").write_text("# the same light\n" + lamp)
+        self.assertIn("lamp.csv changed", cause(code=0, word="stale"))
+        (self.folder / "lamp.csv").write_text(lamp)
+        self.assertWorks("bake", "night.yaml", "-o", "b.ctf", "--size", "9", "--illuminant-out", "FL11")
+        shutil.copy(self.folder / "b.ctf", self.folder / "a.ctf")
+        self.assertEqual(cause(), "a.ctf is not the file that its certificate is for")
+
+    def test_a_look_is_judged_by_its_certificate(self):
+        self.assertWorks("config", "night.yaml", "-o", "c.ocio", "--size", "9")
+        self.assertTrue(self.compared("night.yaml", "c.ocio")["tolerance"]["passed"])
+        (self.folder / "night.yaml").write_text(NIGHT.replace("HP1", "FL11"))
+        report = self.compared("night.yaml", "c.ocio:night", code=3)
+        self.assertIn("recipe: output.illuminant was HP1, is FL11", report["certificate"]["stale"])
+        # Renewed, it is what the recipe is.
+        self.assertWorks("config", "night.yaml", "-o", "c.ocio", "--size", "9", "--replace")
+        self.assertTrue(self.compared("night.yaml", "c.ocio")["tolerance"]["passed"])
+
+    def test_what_changed_between_two_certificates(self):
+        self.assertWorks("bake", "night.yaml", "-o", "a.ctf", "--size", "9")
+        (self.folder / "gel.csv").write_text("nm,transmittance\n380,0.9\n580,0.2\n780,0.8\n")
+        self.assertWorks("bake", "night.yaml", "-o", "b.ctf", "--size", "13", "--filter-out", "gel.csv:0.5")
+        self.assertRegex(self.assertWorks("diff", "a.ctf.json", "a.ctf.json"), "^a.ctf.json and a.ctf.json say the same, ")
+        said = self.assertWorks("diff", "a.ctf.json", "b.ctf.json")
+        self.assertIn("recipe: output.filters[0].name is new: gel.csv\n", said)
+        self.assertIn("inputs: output.filters[0].name is new: gel.csv\n", said)
+        self.assertIn("transform: size was 9, is 13\n", said)
+        self.assertRegex(said, r"(?m)^error: p99 was [0-9.]+, is [0-9.]+$")
+        self.assertRegex(said, r"\na.ctf.json and b.ctf.json: \d+ differences, [0-9.]+ s\n$")
+        changes = json.loads(self.assertWorks("diff", "a.ctf.json", "b.ctf.json", "--json"))["changes"]
+        self.assertEqual(len(changes), said.count("\n") - 1)
+        self.assertIn({"part": "transform", "field": "size", "before": 9, "after": 13,
+                       "words": "transform: size was 9, is 13"}, changes)
+        self.assertEqual(lutgen("diff", "a.ctf.json", "b.ctf.json", "--exit-code", folder=self.folder).returncode, 3)
+        self.assertWorks("diff", "a.ctf.json", "a.ctf.json", "--exit-code", "--quiet")
+        for name, text in (("none.json", None), ("list.json", "[]"), ("cut.json", '{"metamer_certificate": 1, "err'),
+                           ("empty.json", '{"metamer_certificate": 1}')):
+            if text is not None:
+                (self.folder / name).write_text(text)
+            self.assertFails("diff", "a.ctf.json", name, says=[name])
 
     def test_pictures(self):
         pixels = np.random.default_rng(4).random((20, 30, 3)).astype(np.float32) + 0.1

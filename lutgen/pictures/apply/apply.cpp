@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <iostream>
 #include <memory>
 
@@ -22,7 +21,6 @@ struct ApplyOptions {
   std::string frames;
   std::string channels;
   PictureRequest picture;
-  bool isQuiet = false;
 };
 
 std::vector<std::string> commaSeparated(const std::string& text) {
@@ -81,7 +79,6 @@ class Report {
 };
 
 void apply(ApplyOptions options) {
-  const auto start = std::chrono::steady_clock::now();
   takeFrames(options);
   options.picture.layers.channels = commaSeparated(options.channels);
   const std::string& input = options.pictures[0];
@@ -95,21 +92,17 @@ void apply(ApplyOptions options) {
   relighter.use(transform);
   const ThreadShare share = shareThreads(options.transform.threads, frames.size(), bytes);
   {
-    Report report(frames.size(), options.isQuiet);
+    Report report(frames.size(), isQuiet());
     forEachFrame(
         frames, share, [&](const Frame& frame) { relighter.relight(frame.input, frame.output, share.inFrame); },
         [&](const Frame& frame, std::size_t count) { report.done(frame, count); });
   }
-  if (options.isQuiet) {
-    return;
-  }
   const auto notes = relighter.notes();
   note({notes.begin(), notes.end()});
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const std::string pixels = relighter.pixelsText();
-  std::cout << spectral::formatted("%s: %zu %s, %s%s, %.1f s\n", output.c_str(), frames.size(),
-                                   frames.size() == 1 ? "picture" : "frames", transform.how.c_str(),
-                                   pixels.empty() ? "" : (", " + pixels).c_str(), seconds);
+  summarise(spectral::formatted("%s: %zu %s, %s%s", output.c_str(), frames.size(),
+                                frames.size() == 1 ? "picture" : "frames", transform.how.c_str(),
+                                pixels.empty() ? "" : (", " + pixels).c_str()));
 }
 
 void addPictureOptions(CLI::App& command, ApplyOptions& options) {
@@ -131,7 +124,6 @@ void addPictureOptions(CLI::App& command, ApplyOptions& options) {
                      "Compression of the written file: zip, piz, dwaa ...; left out: as it is");
   command.add_option("--max-pixels", options.picture.mostPixels, "Largest picture that is read; default 2147483648")
       ->check(CLI::PositiveNumber);
-  command.add_flag("--quiet", options.isQuiet, "No notes, progress or summary");
 }
 
 }  // namespace

@@ -4,19 +4,23 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 
 #include "compare/compare_report.h"
 #include "compare/heat_map.h"
+#include "metamer/ocio/certificate_record.h"
 #include "metamer/ocio/compared_transform.h"
+#include "metamer/ocio/config_writer.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/working_space.h"
+#include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 #include "picture.h"
 #include "picture_commands.h"
+#include "run.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -28,7 +32,7 @@ struct CompareArguments {
   std::string b;
   std::string space;
   std::string shaper;
-  std::optional<double> tolerance;
+  std::string tolerance;
   std::string statistic = "p99";
   std::string json;
   std::string junit;
@@ -86,6 +90,32 @@ ocio::ComparedTransform lookOf(const std::string& name, const std::string& recip
   return ocio::comparedLook(name.substr(0, mark), look, library);
 }
 
+constexpr const char* kByCertificate = "certificate";
+
+/// A number of 0 or more; nothing where the certificate judges, or nobody does.
+std::optional<double> numberOf(const std::string& tolerance) {
+  if (tolerance.empty() || tolerance == kByCertificate) {
+    return std::nullopt;
+  }
+  const std::optional<double> number = spectral::parseNumber(tolerance);
+  if (!number || !(*number >= 0)) {
+    throw CLI::ValidationError("--tolerance", "'" + tolerance + "' must be a number of 0 or more, or certificate");
+  }
+  return number;
+}
+
+/// The certificate of a file or look; empty where it has none.
+std::filesystem::path certificateFileOf(const std::string& name, const std::string& recipeName) {
+  std::filesystem::path file = name + ".json";
+  if (kindOf(name) == Kind::Look) {
+    const std::size_t mark = lookMark(name);
+    file =
+        ocio::certificateOfLook(name.substr(0, mark), mark == std::string::npos ? recipeName : name.substr(mark + 1));
+  }
+  std::error_code none;
+  return std::filesystem::is_regular_file(file, none) ? file : std::filesystem::path();
+}
+
 class Comparer {
  public:
   explicit Comparer(const CompareArguments& arguments)
@@ -127,12 +157,21 @@ class Comparer {
                          m_arguments.b,
                          m_space.name,
                          ocio::compareTransforms(a, b, m_space, m_library),
-                         m_arguments.tolerance,
+                         numberOf(m_arguments.tolerance),
                          m_arguments.statistic};
+    if (static_cast<bool>(recipeA) != static_cast<bool>(recipeB)) {
+      addPromise(report, recipeA ? *recipeA : *recipeB, recipeA ? m_arguments.b : m_arguments.a);
+    } else if (m_arguments.tolerance == kByCertificate) {
+      throw InputError(m_arguments.b, "tolerance", kByCertificate,
+                       "judges a file or look by the recipe that it was made from; compare it with one");
+    }
     return report;
   }
 
   CompareReport pictures() {
+    if (m_arguments.tolerance == kByCertificate) {
+      throw InputError(m_arguments.b, "tolerance", kByCertificate, "is for transforms; give a number");
+    }
     const Picture a(m_arguments.a);
     const Picture b(m_arguments.b);
     if (a.width() != b.width() || a.height() != b.height()) {
@@ -170,7 +209,7 @@ class Comparer {
             m_arguments.b,
             m_space.name,
             sip::comparePixels(m_space, pixelsA, pixelsB),
-            m_arguments.tolerance,
+            numberOf(m_arguments.tolerance),
             m_arguments.statistic};
   }
 
@@ -185,6 +224,27 @@ class Comparer {
   }
 
  private:
+  /// @param name  of the file or look
+  void addPromise(CompareReport& report, const sip::Recipe& recipe, const std::string& name) const {
+    const std::filesystem::path file = certificateFileOf(name, recipe.name);
+    if (file.empty()) {
+      if (m_arguments.tolerance == kByCertificate) {
+        throw InputError(name, "tolerance", kByCertificate,
+                         "has no certificate beside it; bake it again, or give a number");
+      }
+      return;
+    }
+    report.certificate = ocio::readCertificate(file);
+    report.isJudgedByCertificate = !report.tolerance;
+    if (kindOf(name) == Kind::File && !report.certificate->sha256.empty() &&
+        ocio::sha256(spectral::readTextFile(name)) != report.certificate->sha256) {
+      report.stale.push_back(name + " is not the file that its certificate is for");
+    }
+    for (const ocio::CertificateChange& change : ocio::staleParts(*report.certificate, recipe, m_library)) {
+      report.stale.push_back(change.words());
+    }
+  }
+
   static std::optional<sip::Recipe> recipeOf(const std::string& name) {
     return kindOf(name) == Kind::Recipe ? std::optional(sip::readRecipe(name)) : std::nullopt;
   }
@@ -196,22 +256,34 @@ class Comparer {
   int m_pictureWidth = 0;
 };
 
-void writeText(const std::string& file, const std::string& text) {
-  if (!file.empty()) {
-    spectral::writeWholeFile(file, text);
+/// A file for text; none where it is not asked for.
+std::unique_ptr<spectral::PendingFile> pendingFor(const std::string& file) {
+  return file.empty() ? nullptr : std::make_unique<spectral::PendingFile>(file);
+}
+
+void writeText(const std::unique_ptr<spectral::PendingFile>& file, const std::string& text) {
+  if (file) {
+    file->write(text);
+    file->commit();
   }
 }
 
 void compare(const CompareArguments& arguments) {
+  numberOf(arguments.tolerance);
+  // The places first: what cannot be written is not worth the work.
+  const auto json = pendingFor(arguments.json);
+  const auto junit = pendingFor(arguments.junit);
+  spectral::requireWritable(arguments.plot);
   Comparer comparer(arguments);
   const bool pictures = kindOf(arguments.a) == Kind::Picture && kindOf(arguments.b) == Kind::Picture;
   const CompareReport report = pictures ? comparer.pictures() : comparer.transforms();
-  writeText(arguments.json, jsonOf(report));
-  writeText(arguments.junit, junitOf(report));
+  writeText(json, jsonOf(report));
+  writeText(junit, junitOf(report));
   if (!arguments.plot.empty()) {
     comparer.plot(report);
   }
-  std::cout << textOf(report);
+  words() << textOf(report);
+  summarise(arguments.a + " against " + arguments.b + spectral::formatted(": p99 %.3g", report.comparison.p99));
   if (!report.passes()) {
     throw CLI::RuntimeError(kExceeded);
   }
@@ -225,8 +297,9 @@ void addCompare(CLI::App& application) {
   const std::string what = "Recipe (.yaml), LUT file, look of a config (CONFIG.ocio:LOOK) or picture";
   command->add_option("A", arguments->a, what)->required();
   command->add_option("B", arguments->b, what)->required();
-  command->add_option("--tolerance", arguments->tolerance, "Largest CIEDE2000 that passes")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("--tolerance", arguments->tolerance,
+                      "Largest CIEDE2000 that passes, or certificate: what the file's own promises. That by default, "
+                      "where a recipe is compared with a file or look that has one");
   command->add_option("--statistic", arguments->statistic, "What the tolerance is for: p99 by default")
       ->check(CLI::IsMember({"mean", "p99", "max"}));
   command->add_option("--json", arguments->json, "File for the figures as JSON");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare/compare_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
@@ -32,12 +33,44 @@ std::string worstText(const CompareReport& report) {
                              worst->rgb[1], worst->rgb[2]);
 }
 
+/// A promise was measured in doubles, and goes through floats here; a release may move a probe.
+constexpr double kPromiseSlack = 0.01;
+constexpr double kPromiseShare = 0.02;
+
+bool holds(double found, double promised) {
+  return found <= promised * (1 + kPromiseShare) + kPromiseSlack;
+}
+
 std::string verdict(const CompareReport& report) {
+  if (report.isJudgedByCertificate) {
+    const ocio::CertificateRecord& promise = *report.certificate;
+    return spectral::formatted("mean %.4f, p99 %.4f, max %.4f, promised %.4f, %.4f, %.4f by ", report.comparison.mean,
+                               report.comparison.p99, report.comparison.max, promise.mean, promise.p99, promise.max) +
+           promise.where;
+  }
   return spectral::formatted("%s CIEDE2000 %.4f, tolerance %.4f", report.statistic.c_str(), report.figure(),
                              *report.tolerance);
 }
 
+/// At most three: a certificate of another world differs in all.
+std::string staleText(const std::vector<std::string>& stale) {
+  constexpr std::size_t kShown = 3;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(kShown, stale.size()); ++k) {
+    text += (k > 0 ? "; " : "") + stale[k];
+  }
+  return stale.size() > kShown ? text + "; and " + std::to_string(stale.size() - kShown) + " more" : text;
+}
+
 }  // namespace
+
+bool CompareReport::passes() const {
+  if (isJudgedByCertificate) {
+    return holds(comparison.mean, certificate->mean) && holds(comparison.p99, certificate->p99) &&
+           holds(comparison.max, certificate->max);
+  }
+  return !tolerance || figure() <= *tolerance;
+}
 
 double CompareReport::figure() const {
   return statistic == "mean" ? comparison.mean : statistic == "max" ? comparison.max : comparison.p99;
@@ -50,8 +83,11 @@ std::string textOf(const CompareReport& report) {
                               comparison.p99, comparison.max, comparison.colours.size()) +
           report.space + "\n";
   text += "worst: " + worstText(report) + "\n";
-  if (report.tolerance) {
+  if (report.tolerance || report.isJudgedByCertificate) {
     text += std::string(report.passes() ? "passed: " : "EXCEEDED: ") + verdict(report) + "\n";
+  }
+  if (!report.stale.empty()) {
+    text += (report.passes() ? "stale: " : "cause: ") + staleText(report.stale) + "\n";
   }
   return text;
 }
@@ -74,7 +110,16 @@ std::string jsonOf(const CompareReport& report) {
                                   {"stop", rounded(worst->stop)},
                                   {"rgb", {rounded(worst->rgb[0]), rounded(worst->rgb[1]), rounded(worst->rgb[2])}}};
   }
-  if (report.tolerance) {
+  if (const auto& promise = report.certificate) {
+    document["certificate"] = {
+        {"file", promise->where},
+        {"promised",
+         {{"mean", rounded(promise->mean)}, {"p99", rounded(promise->p99)}, {"max", rounded(promise->max)}}},
+        {"stale", report.stale}};
+  }
+  if (report.isJudgedByCertificate) {
+    document["tolerance"] = {{"by", "certificate"}, {"passed", report.passes()}};
+  } else if (report.tolerance) {
     document["tolerance"] = {
         {"statistic", report.statistic}, {"value", *report.tolerance}, {"passed", report.passes()}};
   }

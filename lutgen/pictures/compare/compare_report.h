@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "metamer/ocio/certificate_record.h"
 #include "metamer/sip/comparison.h"
 
 namespace metamer::lutgen {
@@ -18,9 +20,14 @@ struct CompareReport {
   sip::Comparison comparison;
   std::optional<double> tolerance;
   std::string statistic = "p99";  ///< "mean", "p99" or "max": what the tolerance is for
+  /// Of a file or look against a recipe, that is, the converged engine: what its certificate says, and whether that
+  /// judges it.
+  std::optional<ocio::CertificateRecord> certificate = {};
+  bool isJudgedByCertificate = false;
+  std::vector<std::string> stale = {};  ///< what the certificate names and is no longer so
 
   double figure() const;
-  bool passes() const { return !tolerance || figure() <= *tolerance; }
+  bool passes() const;
 };
 
 /// Some lines for people.

@@ -146,6 +146,7 @@ void drive(const EnvironmentOptions& options) {
   if (options.output.empty() && options.lightsOutput.empty()) {
     throw CLI::ValidationError("-o", "or --lights-output is needed");
   }
+  spectral::requireWritable(options.lightsOutput);
   const Stage stage = readStageCharts(options, library);
   EnvironmentPicture environment(options.environment);
   const stage::LatLong layout = environment.layout();

@@ -71,6 +71,9 @@ stage::MatchOutcome matchCharts(const MatchOptions& options, const spectral::Dat
 }
 
 void match(const MatchOptions& options) {
+  for (const std::string& file : {options.output, options.report, options.figure}) {
+    spectral::requireWritable(file);
+  }
   const auto library = spectral::DataLibrary::openDefault();
   stage::MatchOutcome outcome = options.charts.empty() ? matchSpectra(options, library) : matchCharts(options, library);
   outcome.target = options.target;

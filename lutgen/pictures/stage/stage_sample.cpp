@@ -43,6 +43,8 @@ Eigen::Vector2d cornerOf(const std::string& text) {
 }
 
 void sample(const SampleOptions& options) {
+  spectral::requireWritable(options.output);
+  spectral::requireWritable(options.checkPicture);
   const auto library = spectral::DataLibrary::openDefault();
   stage::StageLayout layout;
   layout.columns = options.columns;
@@ -72,6 +74,7 @@ void sample(const SampleOptions& options) {
 }
 
 void linearity(const std::string& file, double tolerance, const std::string& output) {
+  spectral::requireWritable(output);
   // The series has a chart's form: the drive stands where a patch's name does.
   const stage::ChartTable table = stage::parseChart(spectral::readTextFile(file), file);
   stage::DriveSeries series;

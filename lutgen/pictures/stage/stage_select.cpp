@@ -5,6 +5,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
 #include "metamer/stage/chart_difference.h"
 #include "metamer/stage/emitter_selection.h"
@@ -139,6 +140,7 @@ std::vector<double> differencesOf(const Case& one, const stage::Fixture& fixture
 }
 
 void select(const SelectOptions& options) {
+  spectral::requireWritable(options.output);
   const auto library = spectral::DataLibrary::openDefault();
   const stage::Fixture fixture = stage::readFixture(options.emitters, library);
   const std::vector<Target> targets = targetsOf(options, library);

@@ -44,6 +44,12 @@ void writeFigure(const stage::StageResult& result, const spectral::DataLibrary& 
 }
 
 void solve(const SolveOptions& options) {
+  // The places first: what cannot be written is not worth the work.
+  for (const std::string& file : {options.output, options.report, options.figure, options.config,
+                                  options.luts.empty() ? "" : options.luts + "_in_frustum.clf",
+                                  options.checkPictures.empty() ? "" : options.checkPictures + "_target.png"}) {
+    spectral::requireWritable(file);
+  }
   const auto library = spectral::DataLibrary::openDefault();
   const stage::StageDescription description = stage::readStage(options.stage);
   const stage::StageResult result =

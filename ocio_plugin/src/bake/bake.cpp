@@ -23,6 +23,11 @@ using spectral::InputError;
 /// What a tolerance may ask for by itself: beyond it a table is slow to load and gains little.
 constexpr int kLargestUsual = 65;
 
+/// Of the time that a bake takes, about.
+constexpr double kPreparedShare = 0.1;
+constexpr double kChosenShare = 0.5;
+constexpr double kCertifiedShare = 0.75;
+
 Certificate newCertificate(const sip::Recipe& recipe, const spectral::DataLibrary& library, const Prepared& prepared,
                            const sip::ErrorProtocol& protocol) {
   Certificate certificate;
@@ -68,10 +73,12 @@ class Baking {
     m_certificate = newCertificate(recipe, library, m_prepared, *m_protocol);
     m_certificate.probes = m_probes;
     m_certificate.brightening = m_pixels->brightening();
+    tell(kPreparedShare);
     if (options.fullCertificate) {
       m_certificate.surfaces = sip::heldOutErrors(m_prepared.spec, library, parallelFor);
     }
     choose();
+    tell(kChosenShare);
   }
 
   /// Puts the error of a transform of the format's pixels into the certificate.
@@ -85,7 +92,10 @@ class Baking {
                        "colours come out infinite or as no number; name another light, observer or format");
     }
   }
-  void certify() { certify(PixelProcessor(m_operators.group)); }
+  void certify() {
+    certify(PixelProcessor(m_operators.group));
+    tell(kCertifiedShare);
+  }
 
   const OCIO::GroupTransformRcPtr& group() const { return m_operators.group; }
   /// With the error of the result once certify() ran.
@@ -94,6 +104,11 @@ class Baking {
 
  private:
   void choose();
+  void tell(double share) const {
+    if (m_options.progress) {
+      m_options.progress(share);
+    }
+  }
 
   const LutFormat& m_format;
   const BakeOptions& m_options;
@@ -126,13 +141,16 @@ void Baking::choose() {
   }
   BakeOptions tried = m_options;
   const int largest = m_options.size != 0 ? tableSize(m_options, usual, m_format) : kLargestUsual;
-  m_certificate.choice =
-      climb(rungsOf(m_format.content, holdsChain(m_format), largest), *m_options.tolerance, [&](const Rung& rung) {
-        tried.size = rung.size;
-        make(tried, rung.representation);
-        return m_protocol->measure(
-            Candidate(PixelProcessor(m_operators.group), m_operators.toPixels, m_operators.fromPixels));
-      });
+  const std::vector<Rung> rungs = rungsOf(m_format.content, holdsChain(m_format), largest);
+  double share = kPreparedShare;
+  m_certificate.choice = climb(rungs, *m_options.tolerance, [&](const Rung& rung) {
+    tell(share);
+    share += (kChosenShare - kPreparedShare) / static_cast<double>(rungs.size());
+    tried.size = rung.size;
+    make(tried, rung.representation);
+    return m_protocol->measure(
+        Candidate(PixelProcessor(m_operators.group), m_operators.toPixels, m_operators.fromPixels));
+  });
 }
 
 std::string textOf(const Baking& baking, const LutFormat& format, const BakeOptions& options) {
@@ -167,7 +185,10 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   const LutFormat& format = lutFormat(file, formatName);
   // The places first: what cannot be written is not worth the work.
   spectral::PendingFile lut(file);
-  spectral::PendingFile json(file.string() + ".json");
+  std::optional<spectral::PendingFile> json;
+  if (!lut.isStream()) {
+    json.emplace(file.string() + ".json");
+  }
 
   Baking baking(recipe, library, format, options);
   Certificate& certificate = baking.certificate();
@@ -182,9 +203,12 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
     throw InputError(file.string(), "tolerance", std::to_string(*options.tolerance),
                      "is lost in the digits of " + format.name + "; name a format that keeps more");
   }
-  json.write(certificate.json());
-  lut.commit();
-  json.commit();
+  if (json) {
+    json->write(certificate.json());
+    spectral::commitAll({&lut, &*json});
+  } else {
+    lut.commit();
+  }
   return std::move(certificate);
 }
 

@@ -22,6 +22,7 @@
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
@@ -35,6 +36,9 @@ class LutFolder {
  public:
   explicit LutFolder(fs::path path) : m_path(std::move(path)) {
     std::error_code failure;
+    if (!fs::exists(m_path, failure)) {
+      m_unfinished.emplace(m_path);
+    }
     m_isNew = fs::create_directory(m_path, failure);
     if (failure || !fs::is_directory(m_path, failure)) {
       throw InputError(m_path.string(), "LUT folder", "",
@@ -53,6 +57,7 @@ class LutFolder {
 
  private:
   fs::path m_path;
+  std::optional<spectral::Unfinished> m_unfinished;
   bool m_isNew = false;
 };
 
@@ -259,6 +264,9 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   Places places(facts, {folder, baseFolder}, folder / options.lutFolder, replaced);
   places.used().refuse(file, "name another file for the config");
   spectral::PendingFile config(file);
+  if (config.isStream()) {
+    throw InputError(file.string(), "output", "", "is a device or pipe, and a config has files beside it; name a file");
+  }
   const LutFolder lutFolder(folder / options.lutFolder);
   if (!base.empty()) {
     checkLoads(document.with("", "", ""), facts, folder, {}, where);
@@ -281,6 +289,13 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   }
   std::vector<spectral::PendingFile*> written;
   for (const ConfigCore& core : cores) {
+    const auto done = static_cast<double>(&core - cores.data());
+    const auto progress = [&](double share) {
+      if (options.progress) {
+        options.progress((done + share) / static_cast<double>(cores.size()));
+      }
+    };
+    progress(0);
     const BakedCore baked = bakeCore(core, library, options.size, options.tolerance, lutFolder.path());
     const std::string lutName = nameOfLut(core);
     std::string pendingName;
@@ -330,11 +345,25 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   const std::string text = textWith(items);
   config.write(text);
   report.unused = unusedFiles(facts, ConfigDocument(text, where).facts(), folder, options.lutFolder, replaced);
-  for (spectral::PendingFile* one : written) {
-    one->commit();
-  }
-  config.commit();
+  written.push_back(&config);
+  spectral::commitAll(written);
   return report;
+}
+
+fs::path certificateOfLook(const fs::path& config, const std::string& look) {
+  std::error_code none;
+  if (look.empty() || !fs::is_regular_file(config, none) || config.extension() == ".ocioz") {
+    return {};
+  }
+  std::vector<std::string> folders = ConfigDocument(spectral::readTextFile(config), config.string()).facts().searchPath;
+  folders.push_back(ConfigOptions().lutFolder);
+  for (const std::string& folder : folders) {
+    const fs::path file = config.parent_path() / folder / (fileName(look) + ".json");
+    if (fs::is_regular_file(file, none)) {
+      return file;
+    }
+  }
+  return {};
 }
 
 }  // namespace metamer::ocio

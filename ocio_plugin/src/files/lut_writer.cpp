@@ -11,6 +11,7 @@
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
 #include "operators/grey_ramp.h"
 
@@ -142,7 +143,7 @@ const LutFormat& lutFormat(const std::filesystem::path& file, const std::string&
     return *found;
   }
   const LutFormat& format = lutFormatNamed(formatName);
-  if (format.extension != extension) {
+  if (format.extension != extension && !spectral::isStream(file)) {
     throw InputError(file.string(), "extension", extension,
                      "is not that of " + format.name + "; name the file *" + format.extension);
   }

@@ -87,11 +87,13 @@ std::vector<std::filesystem::path> writeStageFiles(const StageMatrices& stage, c
       add(part, extension, lutText(lutFormat("file" + std::string(extension), ""), part.group, 0, description));
     }
   }
+  std::vector<spectral::PendingFile*> written;
   std::vector<std::filesystem::path> files;
   for (const auto& file : pending) {
-    file->commit();
+    written.push_back(file.get());
     files.push_back(file->target());
   }
+  spectral::commitAll(written);
   return files;
 }
 

@@ -264,6 +264,13 @@ std::vector<std::string> notesOf(const Recipe& recipe, const TransformSpec& spec
   };
   addSide("input", recipe.input, spec.input);
   addSide("output", recipe.output, spec.output);
+  // Who says that the light's colour was taken out may not expect to see the next one's.
+  if (recipe.balanced && recipe.balanced->kind != Balance::Kind::None && recipe.adaptation == 0.0 &&
+      spectral::lowerCase(recipe.input.illuminant) != spectral::lowerCase(recipe.output.illuminant)) {
+    notes.push_back("balanced " + nameOf(*recipe.balanced) +
+                    " with adaptation 0: greys take on the colour that the output light has beside the input light, as "
+                    "where a locked camera meets another lamp; adaptation 1 keeps them grey");
+  }
   return notes;
 }
 

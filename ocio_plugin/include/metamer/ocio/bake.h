@@ -4,6 +4,7 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct BakeOptions {
   /// Entries of the curve in front of a table, in formats that have one, as lutText() takes them; 0: their usual
   /// number.
   int shaperSize = 0;
+  /// Told the share of the work that is done, 0 ... 1, rising, after every step of some seconds.
+  std::function<void(double share)> progress = {};
 };
 
 /// A recipe as an OCIO transform.
@@ -52,7 +55,7 @@ struct Baked {
 Baked bake(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options = {});
 
 /// Bakes a recipe to a LUT file and its certificate beside it, FILE.json; the error is measured on the written file.
-/// Either both files appear or none.
+/// Either both files appear or none. A device, a pipe or a stream has no certificate beside it.
 /// @param formatName  as lutFormat() takes it
 /// @throws spectral::InputError as above, and where the file cannot be written
 Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::filesystem::path& file,

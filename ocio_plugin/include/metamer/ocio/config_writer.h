@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct ConfigOptions {
   /// 99th percentile of CIEDE2000 to hold with the least: nothing, a matrix, a table of few nodes, of more. Where none
   /// up to `size` does, the largest is taken (above 0); the certificate says what it holds.
   std::optional<double> tolerance;
+  std::function<void(double share)> progress;  ///< as BakeOptions
 };
 
 /// What one recipe became.
@@ -60,5 +62,9 @@ struct ConfigReport {
 ///         that are not found from the new place, has one of the names; a recipe; a place that cannot be written
 ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral::DataLibrary& library,
                          const std::filesystem::path& file, const ConfigOptions& options = {});
+
+/// The certificate that writeConfig() left for a look; empty where none is found.
+/// @throws spectral::InputError where the config cannot be read
+std::filesystem::path certificateOfLook(const std::filesystem::path& config, const std::string& look);
 
 }  // namespace metamer::ocio

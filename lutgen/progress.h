@@ -6,10 +6,12 @@
 
 namespace metamer::lutgen {
 
-/// Progress in per cent on stderr, where that is a terminal or the user asks for it; a few times a second at most.
+/// Progress in per cent on stderr: on a terminal, one line that changes a few times a second; elsewhere, as in the log
+/// of a farm, a line each now and then once the work takes long. Nothing with --quiet.
 class Progress {
  public:
-  Progress(std::string what, bool isAsked);
+  /// @param isAsked  whether the user asks for the changing line wherever stderr goes
+  explicit Progress(std::string what, bool isAsked = false);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -19,7 +21,7 @@ class Progress {
 
  private:
   std::string m_what;
-  bool m_isShown;
+  bool m_isLine;
   bool m_hasWritten = false;
   std::chrono::steady_clock::time_point m_last;
 };

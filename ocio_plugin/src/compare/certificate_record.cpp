@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metamer/ocio/certificate_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "metamer/ocio/certificate.h"
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_files.h"
+#include "metamer/spectral/text.h"
+
+namespace metamer::ocio {
+namespace {
+
+using spectral::InputError;
+using Json = nlohmann::ordered_json;
+
+constexpr int kDeepest = 16;
+constexpr std::size_t kShownOfHash = 8;
+constexpr std::size_t kLongestValue = 80;
+
+/// A value of a certificate by its path below a part, in the order of the file.
+struct Field {
+  std::string path;
+  std::string value;
+  std::string name;
+};
+
+void flatten(const Json& value, const std::string& path, int depth, std::vector<Field>& fields) {
+  const bool hasNumbers = value.is_array() && !value.empty() && value.front().is_number();
+  if (depth > kDeepest || !value.is_structured() || value.empty() || hasNumbers) {
+    fields.push_back({path, value.dump(-1, ' ', false, Json::error_handler_t::replace), ""});
+    return;
+  }
+  for (const auto& [key, member] : value.items()) {
+    const std::string step = value.is_array() ? "[" + key + "]" : (path.empty() ? "" : ".") + key;
+    flatten(member, path + step, depth + 1, fields);
+  }
+}
+
+std::string textOf(const Json& object, const char* key) {
+  const auto found = object.is_object() ? object.find(key) : object.end();
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// The fields of a part. Inputs stand by their roles: one more does not shift the others.
+std::vector<Field> fieldsOf(const Json& document, const std::string& part) {
+  std::vector<Field> fields;
+  const auto found = document.find(part);
+  if (found == document.end()) {
+    return fields;
+  }
+  if (part != "inputs" || !found->is_array()) {
+    flatten(*found, "", 0, fields);
+    return fields;
+  }
+  for (const Json& input : *found) {
+    for (const char* key : {"name", "file", "sha256"}) {
+      const std::string value = textOf(input, key);
+      if (!value.empty()) {
+        fields.push_back({textOf(input, "role") + "." + key,
+                          Json(value).dump(-1, ' ', false, Json::error_handler_t::replace), textOf(input, "name")});
+      }
+    }
+  }
+  return fields;
+}
+
+const Field* find(const std::vector<Field>& fields, const std::string& path) {
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.path == path; });
+  return found == fields.end() ? nullptr : &*found;
+}
+
+void compareParts(const Json& a, const Json& b, const std::string& part, std::vector<CertificateChange>& changes) {
+  const std::vector<Field> before = fieldsOf(a, part);
+  const std::vector<Field> after = fieldsOf(b, part);
+  for (const Field& field : before) {
+    const Field* now = find(after, field.path);
+    if (now == nullptr || now->value != field.value) {
+      changes.push_back({part, field.path, field.value, now == nullptr ? "" : now->value, field.name});
+    }
+  }
+  for (const Field& field : after) {
+    if (find(before, field.path) == nullptr) {
+      changes.push_back({part, field.path, "", field.value, field.name});
+    }
+  }
+}
+
+/// A hash by its first digits, a long text by its start, JSON's quotation marks taken off.
+std::string shown(const std::string& value, bool isHash) {
+  std::string text = value;
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+    text = text.substr(1, text.size() - 2);
+  }
+  return isHash ? text.substr(0, kShownOfHash) : spectral::shortened(text, kLongestValue);
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}  // namespace
+
+CertificateRecord certificateFrom(const std::string& text, const std::string& where) {
+  try {
+    const Json json = Json::parse(text);
+    if (!json.is_object() || !json.contains("metamer_certificate")) {
+      throw InputError(where, "certificate", "", "is not one of metamer's; give the FILE.json that bake wrote");
+    }
+    const Json& error = json.at("error");
+    CertificateRecord record{where,
+                             text,
+                             textOf(json.at("tool"), "version"),
+                             error.at("mean").get<double>(),
+                             error.at("p99").get<double>(),
+                             error.at("max").get<double>(),
+                             textOf(json.at("transform"), "sha256")};
+    if (!std::isfinite(record.mean) || !std::isfinite(record.p99) || !std::isfinite(record.max)) {
+      throw InputError(where, "error", "", "is no finite number; bake the file again");
+    }
+    return record;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(where, "certificate", "",
+                     std::string("is not one of metamer's; bake the file again: ") + error.what());
+  }
+}
+
+CertificateRecord readCertificate(const std::filesystem::path& file) {
+  return certificateFrom(spectral::readTextFile(file), file.string());
+}
+
+std::vector<CertificateChange> changesBetween(const CertificateRecord& before, const CertificateRecord& after) {
+  const Json a = Json::parse(before.text);
+  const Json b = Json::parse(after.text);
+  std::vector<std::string> parts = {"recipe", "inputs", "transform", "range", "error", "pixels", "diagnostics"};
+  for (const Json* document : {&a, &b}) {
+    for (const auto& [key, value] : document->items()) {
+      if (std::find(parts.begin(), parts.end(), key) == parts.end()) {
+        parts.push_back(key);
+      }
+    }
+  }
+  std::vector<CertificateChange> changes;
+  for (const std::string& part : parts) {
+    compareParts(a, b, part, changes);
+  }
+  return changes;
+}
+
+std::vector<CertificateChange> staleParts(const CertificateRecord& certificate, const sip::Recipe& recipe,
+                                          const spectral::DataLibrary& library) {
+  Certificate now;
+  now.recipe = recipe;
+  now.inputs = certifiedInputs(recipe, library);
+  const Json a = Json::parse(certificate.text);
+  const Json b = Json::parse(now.json());
+  std::vector<CertificateChange> changes;
+  for (const char* part : {"inputs", "recipe", "tool"}) {
+    compareParts(a, b, part, changes);
+  }
+  // A name is not what a transform does.
+  changes.erase(
+      std::remove_if(changes.begin(), changes.end(),
+                     [](const CertificateChange& change) { return change.part == "recipe" && change.field == "name"; }),
+      changes.end());
+  return changes;
+}
+
+std::string CertificateChange::words() const {
+  const bool isHash = endsWith(field, "sha256");
+  if (part == "inputs" && isHash && !before.empty() && !after.empty()) {
+    return "inputs: " + field.substr(0, field.rfind('.')) + ": the contents of " + name + " changed, sha256 " +
+           shown(before, true) + "... is " + shown(after, true) + "... now";
+  }
+  const std::string what = part + (field.empty() ? "" : ": " + field);
+  if (before.empty()) {
+    return what + " is new: " + shown(after, isHash);
+  }
+  if (after.empty()) {
+    return what + " is gone: was " + shown(before, isHash);
+  }
+  return what + " was " + shown(before, isHash) + ", is " + shown(after, isHash);
+}
+
+}  // namespace metamer::ocio

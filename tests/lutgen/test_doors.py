@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What leaves lutgen, and what may come between: devices, pipes, links, full disks, signals, --quiet."""
+
+import os
+import random
+import resource
+import signal
+import stat
+import subprocess
+import threading
+import time
+import unittest
+
+from lutgen import LUTGEN, LutgenTest, lutgen
+
+LIGHTS = ["--illuminant-in", "D65", "--illuminant-out", "A", "--scene", "smooth", "--size", "5"]
+RECIPE = """metamer: 1
+name: evening
+input: {illuminant: D65}
+output: {illuminant: A}
+scene: {kind: smooth}
+"""
+STAGE = ["stage", "emitter", "led:620:18"]
+LONG = os.environ.get("METAMER_LONG") == "1"
+
+
+class Outputs(LutgenTest):
+    def bake(self, *arguments, **options):
+        return subprocess.run([LUTGEN, "bake", *LIGHTS, *arguments], cwd=self.folder, capture_output=True, text=True,
+                              timeout=300, **options)
+
+    def test_streams_and_devices_are_written_into(self):
+        self.assertWorks("bake", *LIGHTS, "-o", "a.cube")
+        table = (self.folder / "a.cube").read_text()
+        run = self.bake("-o", "/dev/stdout", "--format", "iridas_cube")
+        self.assertEqual((run.returncode, run.stdout), (0, table), run.stderr)
+        self.assertRegex(run.stderr, r"^/dev/stdout: log cube of 5 nodes, p99 [0-9.]+, [0-9.]+ s\n$")
+        # At its place in a file that the shell has opened.
+        with open(self.folder / "all.txt", "wb", buffering=0) as file:
+            file.write(b"first\n")
+            run = subprocess.run([LUTGEN, "bake", *LIGHTS, "-o", "/dev/stdout", "--format", "iridas_cube"], stdout=file)
+        self.assertEqual((self.folder / "all.txt").read_text(), "first\n" + table)
+        os.mkfifo(self.folder / "pipe.cube")
+        read = []
+        reader = threading.Thread(target=lambda: read.append((self.folder / "pipe.cube").read_text()))
+        reader.start()
+        self.assertEqual(self.bake("-o", "pipe.cube").stdout, "")
+        reader.join()
+        self.assertEqual(read, [table])
+        self.assertTrue(stat.S_ISFIFO(os.stat(self.folder / "pipe.cube").st_mode))
+        self.assertFalse((self.folder / "pipe.cube.json").exists())
+        self.assertEqual(self.bake("-o", "/dev/null", "--format", "clf").returncode, 0)
+        self.assertTrue(stat.S_ISCHR(os.stat("/dev/null").st_mode))
+        self.assertFails("bake", *LIGHTS, "-o", "/dev/full", "--format", "clf", says=["/dev/full", "No space left"])
+        self.assertFails("bake", *LIGHTS, "-o", "/dev/nothing.clf", says=["/dev/nothing.clf", "no device"])
+        (self.folder / "r.yaml").write_text(RECIPE)
+        self.assertFails("config", "r.yaml", "-o", "/dev/null", says=["/dev/null", "device"])
+        self.assertFalse(os.path.exists("/dev/null.json"))
+
+    def test_a_replaced_file_keeps_its_mode_and_a_link_stays(self):
+        self.assertWorks("bake", *LIGHTS, "-o", "a.ctf")
+        os.chmod(self.folder / "a.ctf", 0o640)
+        before = (self.folder / "a.ctf").read_bytes()
+        os.symlink("a.ctf", self.folder / "link.ctf")
+        self.assertWorks("bake", *LIGHTS, "--adaptation", "1", "-o", "link.ctf")
+        self.assertTrue((self.folder / "link.ctf").is_symlink())
+        self.assertNotEqual((self.folder / "a.ctf").read_bytes(), before)
+        self.assertEqual(stat.S_IMODE(os.stat(self.folder / "a.ctf").st_mode), 0o640)
+
+    def test_a_full_disk_is_one_line_and_leaves_the_old_file(self):
+        (self.folder / "r.yaml").write_text(RECIPE)
+        (self.folder / "a.ctf").write_text("old")
+        (self.folder / "c.ocio").write_text("old")
+
+        def limited():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+        for arguments, name in ((["bake", *LIGHTS, "-o", "a.ctf"], "a.ctf"),
+                                (["config", "r.yaml", "-o", "c.ocio", "--size", "5"], "luts/trial.ctf"),
+                                ([*STAGE, "-o", "led.csv"], "led.csv")):
+            run = subprocess.run([LUTGEN, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=300,
+                                 preexec_fn=limited, env={**os.environ, "LLVM_PROFILE_FILE": os.devnull})
+            self.assertEqual(run.returncode, 1, run.stderr)
+            self.assertRegex(run.stderr, rf"^lutgen: \S*{name}: output: cannot be written: File too large; .*\n$")
+        self.assertEqual(sorted(path.name for path in self.folder.rglob("*")), ["a.ctf", "c.ocio", "r.yaml"])
+        self.assertEqual((self.folder / "a.ctf").read_text() + (self.folder / "c.ocio").read_text(), "oldold")
+
+    def test_quiet_is_silent_and_failures_are_not(self):
+        (self.folder / "r.yaml").write_text(RECIPE)
+        for arguments in (["bake", "r.yaml", "-o", "a.ctf", "--size", "5"],
+                          ["bake", "r.yaml", "-o", "a.ctf", "--tolerance", "10"],
+                          ["config", "r.yaml", "-o", "c.ocio", "--size", "5"],
+                          ["compare", "a.ctf", "a.ctf"],
+                          [*STAGE, "-o", "led.csv"]):
+            self.assertRegex(self.assertWorks(*arguments).splitlines()[-1], r", [0-9.]+ s$", arguments)
+            self.assertEqual(self.assertWorks(*arguments, "--quiet"), "", arguments)
+        self.assertFails("bake", "none.yaml", "-o", "b.ctf", "--quiet", says=["none.yaml"])
+
+    def test_every_message_is_a_line_of_300_bytes(self):
+        long = "x" * 250
+        for text in ("a: [" + "\n" * 30, "metamer: 1\nname: " + long + "\nillumin\u00e4nt: " + long + "\n"):
+            (self.folder / (long + ".yaml")).write_text(text)
+            run = lutgen("bake", long + ".yaml", "-o", long + ".cube", folder=self.folder)
+            self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
+            self.assertLessEqual(len(run.stderr.encode()), 301)
+
+
+class Signals(LutgenTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "r.yaml").write_text(RECIPE)
+        (self.folder / "s.yaml").write_text(RECIPE.replace("evening", "night").replace("illuminant: A", "illuminant: HP1"))
+        self.assertWorks("bake", "r.yaml", "-o", "old.ctf", "--size", "5")
+        self.commands = {
+            "bake": ["bake", "r.yaml", "-o", "a.ctf", "--size", "17"],
+            "config": ["config", "r.yaml", "s.yaml", "-o", "c.ocio", "--size", "9"],
+            "compare": ["compare", "r.yaml", "old.ctf", "--json", "a.json", "--junit", "a.xml", "--plot", "a.png"],
+            "stage": [*STAGE, "-o", "led.csv"],
+        }
+
+    def tree(self):
+        return {str(path.relative_to(self.folder)): path.read_bytes() if path.is_file() else None
+                for path in self.folder.rglob("*")}
+
+    def interrupted(self, name, number, delay):
+        """Ended by a signal after a while: what is there is what was, or what the whole command makes."""
+        process = subprocess.Popen([LUTGEN, *self.commands[name]], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(delay)
+        process.send_signal(number)
+        said = process.communicate(timeout=300)[1]
+        return process.returncode, said
+
+    def test_nothing_is_left_behind(self):
+        whole, seconds = {}, {}
+        before = self.tree()
+        for name, arguments in self.commands.items():
+            start = time.monotonic()
+            self.assertEqual(lutgen(*arguments, folder=self.folder).returncode, 0)
+            seconds[name] = time.monotonic() - start
+            whole[name] = self.tree()
+            self.restore(before)
+        order = random.Random(7)
+        rounds = 50 if LONG else 3
+        for _ in range(rounds):
+            for name in self.commands:
+                number = order.choice([signal.SIGINT, signal.SIGTERM])
+                code, said = self.interrupted(name, number, order.uniform(0, seconds[name]))
+                now = self.tree()
+                with self.subTest(name, number=number, code=code, said=said):
+                    if code == 0:
+                        self.assertEqual(now.keys(), whole[name].keys())
+                    else:
+                        self.assertEqual(code, -number)
+                        if now != before:  # it came when the work was done
+                            self.assertIn("files that are complete", said)
+                            self.assertTrue(all(now[path] == whole[name].get(path, now[path]) for path in now))
+                        self.assertFalse([path for path in now if "partial" in path])
+                self.restore(before)
+
+    def test_sigkill_leaves_the_old_file_whole(self):
+        (self.folder / "a.ctf").write_text("old")
+        order = random.Random(8)
+        for _ in range(50 if LONG else 2):
+            code, _ = self.interrupted("bake", signal.SIGKILL, order.uniform(0, 0.3))
+            if code != 0:
+                self.assertEqual((self.folder / "a.ctf").read_text(), "old")
+            (self.folder / "a.ctf").write_text("old")
+
+    def restore(self, before):
+        for path, data in sorted(self.tree().items(), reverse=True):
+            if path not in before:
+                (self.folder / path).rmdir() if data is None else (self.folder / path).unlink()
+
+
+if __name__ == "__main__":
+    unittest.main()
