@@ -82,6 +82,10 @@ def _solve(f):
     return _largest(s["microseconds"] for s in f["solves"] if s["upper_bound"] and s["bands"] == 81)
 
 
+def _engine(f, scene):
+    return _largest(s["microseconds"] for s in f["engine"] if s["scene"] == scene and s["colours"] == "photograph")
+
+
 def _meng(f):
     return f["meng_2015_microseconds"] / _largest(s["microseconds"] for s in f["solves"] if s["upper_bound"] and s["bands"] == 81)
 
@@ -121,6 +125,8 @@ NOISE = "next-event estimation is already near what is left of the noise at this
 
 TARGETS = (
     Target("solver", "smoothest spectrum within 0 and 1, 81 bands, µs", "<=", 10, _solve),
+    Target("solver", "exact engine, 81 bands, scene natural, photographs, µs a colour", "<=", 6, lambda f: _engine(f, "natural")),
+    Target("solver", "exact engine, 81 bands, scene smooth, photographs, µs a colour", "<=", 1.5, lambda f: _engine(f, "smooth")),
     Target("solver", "times as fast as colour-science's Meng 2015", ">=", 1e5, _meng),
     Target("build", "building a map, slowest lights, s", "<=", 0.5, lambda f: _largest(r["seconds"] for r in f), BUILD),
     Target("kernel", "map's speed over OCIO's log + 33³, least", ">=", 2.5,

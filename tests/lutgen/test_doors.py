@@ -57,6 +57,17 @@ class Outputs(LutgenTest):
         self.assertFails("config", "r.yaml", "-o", "/dev/null", says=["/dev/null", "device"])
         self.assertFalse(os.path.exists("/dev/null.json"))
 
+    def test_a_pipe_that_nobody_reads_can_be_given_up(self):
+        os.mkfifo(self.folder / "pipe.cube")
+        run = subprocess.Popen([LUTGEN, "bake", *LIGHTS, "-o", "pipe.cube"], cwd=self.folder, stderr=subprocess.PIPE)
+        time.sleep(2)  # by then it waits for a reader
+        run.send_signal(signal.SIGINT)
+        try:
+            self.assertEqual(run.communicate(timeout=60)[1], b"lutgen: stopped by SIGINT; nothing was written\n")
+            self.assertEqual(run.returncode, -signal.SIGINT)
+        finally:
+            run.kill()
+
     def test_a_replaced_file_keeps_its_mode_and_a_link_stays(self):
         self.assertWorks("bake", *LIGHTS, "-o", "a.ctf")
         os.chmod(self.folder / "a.ctf", 0o640)

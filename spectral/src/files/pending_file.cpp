@@ -100,29 +100,42 @@ void PendingFile::copyIntoStream() const {
 }
 
 void PendingFile::commit() {
-  const SignalsWait untilItIsThere;
   if (m_isStream) {
+    // Who reads may never come: signals do not wait.
     copyIntoStream();
     std::error_code none;
     fs::remove(m_path, none);
-  } else {
-    keepOwnerAndMode(m_place, m_path);
-    std::error_code failure;
-    fs::rename(m_path, m_place, failure);
-    if (failure) {
-      throw InputError(m_target.string(), "output", "",
-                       "cannot be replaced: " + failure.message() + "; name another file");
-    }
+    finish();
+    return;
   }
+  const SignalsWait untilItIsThere;
+  keepOwnerAndMode(m_place, m_path);
+  std::error_code failure;
+  fs::rename(m_path, m_place, failure);
+  if (failure) {
+    throw InputError(m_target.string(), "output", "",
+                     "cannot be replaced: " + failure.message() + "; name another file");
+  }
+  finish();
+}
+
+void PendingFile::finish() {
   m_committed = true;
   m_unfinished.reset();
   countFinishedFile();
 }
 
 void commitAll(const std::vector<PendingFile*>& files) {
+  for (PendingFile* file : files) {
+    if (file->isStream()) {
+      file->commit();
+    }
+  }
   const SignalsWait untilAllAreThere;
   for (PendingFile* file : files) {
-    file->commit();
+    if (!file->isStream()) {
+      file->commit();
+    }
   }
 }
 

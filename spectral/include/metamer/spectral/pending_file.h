@@ -39,6 +39,7 @@ class PendingFile {
 
  private:
   void copyIntoStream() const;
+  void finish();
 
   std::filesystem::path m_target;
   std::filesystem::path m_place;  ///< behind links
@@ -48,7 +49,7 @@ class PendingFile {
   bool m_committed = false;
 };
 
-/// Commits files that belong together: no signal comes between them. @throws InputError as PendingFile
+/// Commits files that belong together, streams first: no signal comes between files. @throws InputError as PendingFile
 void commitAll(const std::vector<PendingFile*>& files);
 
 /// Writes a file that appears whole or not at all. @throws InputError as PendingFile
