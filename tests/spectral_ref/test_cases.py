@@ -99,7 +99,7 @@ class Cases(unittest.TestCase):
             (body + "f 1 2 3/1/1/1\n", ("m.obj:6", "V/VT/VN")),
             (body + "f\n", ("m.obj:6", "no corner")),
             ("v 0 0\n", ("m.obj:1", "cut short")),
-            ("v 0 0 nan\n", ("m.obj:1", "v 'nan'")),
+            ("v 0 0 zero\n", ("m.obj:1", "v 'zero'")),
             ("v 0 0 0\0\n", ("m.obj:1", "no text")),
             ("", ("m.obj",)),
         ):

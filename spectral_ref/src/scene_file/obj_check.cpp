@@ -34,6 +34,13 @@ std::vector<std::string_view> wordsOf(std::string_view line) {
   return words;
 }
 
+/// nan and inf, as printf writes them: triangles of such places are left out with a warning.
+bool isNoNumber(std::string_view word) {
+  word.remove_prefix(!word.empty() && (word[0] == '-' || word[0] == '+') ? 1 : 0);
+  const std::string name = spectral::lowerCase(word);
+  return name == "nan" || name == "inf" || name == "infinity";
+}
+
 class ObjCheck {
  public:
   explicit ObjCheck(const std::filesystem::path& file) : m_file(file), m_stream(file, std::ios::binary) {}
@@ -95,9 +102,9 @@ class ObjCheck {
 
   void checkNumbers(const std::vector<std::string_view>& words, std::size_t fewest) const {
     for (std::size_t k = 1; k <= fewest; ++k) {
-      if (k >= words.size() || !spectral::parseNumber(words[k])) {
+      if (k >= words.size() || !(spectral::parseNumber(words[k]) || isNoNumber(words[k]))) {
         refuse(std::string(words[0]), k < words.size() ? std::string(words[k]) : "",
-               "must have " + std::to_string(fewest) + " finite numbers; write the mesh anew, it may be cut short");
+               "must have " + std::to_string(fewest) + " numbers; write the mesh anew, it may be cut short");
       }
     }
   }
