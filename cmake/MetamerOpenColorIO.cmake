@@ -26,10 +26,6 @@ elseif(METAMER_OCIO STREQUAL "system")
 else()
   message(FATAL_ERROR "METAMER_OCIO is '${METAMER_OCIO}'; write release or system")
 endif()
-if(METAMER_OCIO_OPTIONAL)
-  find_package(OpenColorIO ${METAMER_OCIO_VERSION})
-  return()
-endif()
 find_package(OpenColorIO ${METAMER_OCIO_VERSION} REQUIRED)
 
 # Where the install tree keeps the release: a folder of its own, so that no other program finds it by accident.

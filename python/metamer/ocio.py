@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""LUT files: baked with their certificates, and compared. Needs the package opencolorio: pip install 'metamer[ocio]'.
+"""LUT files: baked with their certificates, and compared. Needs the package opencolorio (docs/python.md).
 
     from metamer import ocio
 
@@ -30,8 +30,8 @@ try:
     from . import _ocio
 except ImportError as error:
     raise ImportError(
-        "metamer.ocio needs the package opencolorio, of the release that metamer was built for: "
-        f"pip install 'metamer[ocio]' ({error})"
+        "metamer.ocio needs the package opencolorio, of the release that metamer was built for, and a metamer built with it: "
+        f"docs/python.md, LUT files ({error})"
     ) from error
 
 __all__ = ["Comparison", "bake", "bake_text", "compare", "formats", "opencolorio_version"]
