@@ -72,6 +72,9 @@ std::optional<HeldOutSet> judge(const TransformSpec& spec, const std::string& na
     return std::nullopt;
   }
   const SpectralTransform transform(rest, kBandCount);
+  if (transform.isIdentity()) {
+    return std::nullopt;
+  }
   const Seen learnt = seenBy(rest, transform, rest.training);
   Eigen::Matrix<double, Eigen::Dynamic, Features::RowsAtCompileTime> features(learnt.responses.cols(),
                                                                               Features::RowsAtCompileTime);
@@ -107,9 +110,6 @@ std::optional<HeldOutSet> judge(const TransformSpec& spec, const std::string& na
 
 std::vector<HeldOutSet> heldOutErrors(const TransformSpec& spec, const spectral::DataLibrary& library,
                                       const ParallelFor& parallelFor) {
-  if (SpectralTransform(spec, kMinimumBandCount).isIdentity()) {
-    return {};
-  }
   const std::vector<std::string> names = library.reflectanceSetNames();
   std::vector<std::optional<HeldOutSet>> judged(names.size());
   parallelFor(static_cast<int>(names.size()), [&](int k) {
