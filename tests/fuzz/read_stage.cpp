@@ -16,7 +16,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(std::isfinite(stage::calibrationSquareBeta(stage.widthM, stage.heightM, stage.distanceM)));
     require(stage.blackLevel.allFinite() && stage.facing.norm() > 0);
     require(!stage.environmentWhite || stage.environmentWhite->allFinite());
-    require(stage.skinWeight >= 0 && stage.largestCondition >= 1);
+    require(stage.skinWeight >= 0 && stage.largestCondition.value_or(1) >= 1);
+    require(!stage.noise || (stage.noise->relative >= 0 && stage.noise->floor >= 0));
     require(stage.layout.columns >= 1 && stage.layout.rows >= 1);
     for (std::size_t k = 0; k < 3; ++k) {
       const stage::StagePrimary& primary = stage.primaries[k];

@@ -229,5 +229,65 @@ class HardCases(StageTest):
         np.testing.assert_allclose(ours["environment_white"], stage.target[18], rtol=1e-12)
 
 
+class Captures(StageTest):
+    """Mistakes of a shoot, named before the solve; and what its noise leaves open."""
+
+    def test_mistakes_are_named(self):
+        stage = Stage()
+        stage.charts[0], stage.charts[1] = stage.charts[1], stage.charts[0]
+        self.failing(["stage.yaml", "charts 'red and green'", "are exchanged, against the primaries"], stage=stage)
+        stage = Stage()
+        stage.target = stage.target.reshape(4, 6, 3)[:, ::-1].reshape(24, 3)
+        self.failing(["charts.target 'mirrored left to right'"], stage=stage)
+        stage = Stage()
+        stage.primaries = 2 * stage.primaries
+        self.failing(["primaries '+1.00 stops'", "one exposure"], stage=stage)
+        stage = Stage()
+        stage.target[[3, 7]] += 0.1
+        self.failing(["charts.target", "is veiled", "so: charts.target"], stage=stage)
+
+    def test_as_captured(self):
+        stage = Stage()
+        stage.primaries = 2 * stage.primaries
+        ours = self.solve(stage, "--as-captured")
+        self.assertTrue(any(note.startswith("as captured: primaries '+1.00 stops'") for note in ours["notes"]))
+        self.assertLessEqual(relative(ours["Q"], stage.solution()["Q"]), 1e-9)
+
+    def test_intervals(self):
+        stage = Stage("FL2")
+        random = np.random.default_rng(1)
+        noisy = lambda values: values * (1 + 0.01 * random.standard_normal(np.shape(values)))
+        stage.primaries, stage.target = noisy(stage.primaries), noisy(stage.target)
+        stage.charts = [noisy(one) for one in stage.charts]
+        stated = self.solve(stage, "--report", self.folder / "r.md", extra="noise: 0.01\n")["intervals"]
+        self.assertEqual((stated["noise_is"], stated["samples"], stated["noise"]["relative"]), ("stated", 500, 0.01))
+        # The same by numpy: as many draws of another generator.
+        draws = []
+        for _ in range(500):
+            m = np.linalg.inv(noisy(stage.primaries))
+            drives = np.maximum(m @ noisy(stage.white), 0)
+            predicted = sum(noisy(one) * drive for one, drive in zip(stage.charts, drives)) / stage.factor
+            draws.append(np.linalg.lstsq(predicted, noisy(stage.target), rcond=None)[0].T)
+        low, high = np.quantile(draws, [0.025, 0.975], axis=0)
+        width = (high - low).max()
+        # The ends of 500 draws are known to a sixth of a standard deviation, a 25th of the width.
+        np.testing.assert_allclose(stated["Q"]["low"], low, atol=0.15 * width)
+        np.testing.assert_allclose(stated["Q"]["high"], high, atol=0.15 * width)
+        self.assertIn("95 % intervals of 500 draws", (self.folder / "r.md").read_text())
+        self.assertIn("95 % intervals of 500 draws of noise (1 %, stated)", self.printed)
+        estimated = self.solve(stage)["intervals"]
+        self.assertEqual(estimated["noise_is"], "estimated from the charts")
+        self.assertAlmostEqual(estimated["noise"]["relative"], 0.01, delta=0.004)
+        self.assertEqual(self.solve(stage)["intervals"], estimated)
+        self.assertNotEqual(self.solve(stage, "--seed", 2)["intervals"], estimated)
+        self.assertNotIn("intervals", self.solve(stage, "--samples", 0))
+
+    def test_bad_noise(self):
+        self.failing(["stage.yaml:7", "noise", "much"], extra="noise: much\n")
+        self.failing(["stage.yaml:7", "noise.relative", "2"], extra="noise: {relative: 2}\n")
+        Stage().write(self.folder)
+        self.assertFails("stage", "solve", "stage.yaml", "-o", "o.json", "--samples", 3, code=2, says=["--samples"])
+
+
 if __name__ == "__main__":
     unittest.main()

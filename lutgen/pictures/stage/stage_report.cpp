@@ -16,6 +16,66 @@ std::string matrixRows(const Eigen::Matrix3d& matrix) {
   return text;
 }
 
+Json endsToJson(const stage::Interval<Eigen::Matrix3d>& interval) {
+  return {{"low", rowsToJson(interval.low)}, {"high", rowsToJson(interval.high)}};
+}
+
+Json endsToJson(const stage::Interval<double>& interval) {
+  return Json::array({numberToJson(interval.low), numberToJson(interval.high)});
+}
+
+Json intervalsToJson(const stage::StageResult& result) {
+  const stage::WallIntervals& intervals = *result.intervals;
+  return {{"confidence", 0.95},
+          {"noise", {{"relative", result.noise.noise.relative}, {"floor", result.noise.noise.floor}}},
+          {"noise_is", result.noise.words},
+          {"samples", intervals.samples},
+          {"M", endsToJson(intervals.wallFromContent)},
+          {"Q", endsToJson(intervals.correctedFromCamera)},
+          {"N", endsToJson(intervals.frustumFromContent)},
+          {"environment_drive",
+           {{"low", toJson(intervals.environmentDrive.low)}, {"high", toJson(intervals.environmentDrive.high)}}},
+          {"dE_before_mean", endsToJson(intervals.meanBefore)},
+          {"dE_after_mean", endsToJson(intervals.meanAfter)},
+          {"dE_after_max", endsToJson(intervals.maxAfter)},
+          {"max_condition", numberToJson(intervals.largestCondition)},
+          {"in_frustum_error", numberToJson(intervals.frustumError)}};
+}
+
+/// Half the widest interval of a matrix over its largest entry.
+double widthOf(const stage::Interval<Eigen::Matrix3d>& interval) {
+  const Eigen::Matrix3d middle = (interval.high + interval.low) / 2;
+  return (interval.high - interval.low).maxCoeff() / 2 / middle.cwiseAbs().maxCoeff();
+}
+
+std::string intervalsInWords(const stage::StageResult& result) {
+  const stage::WallIntervals& intervals = *result.intervals;
+  std::string text = spectral::formatted(
+      "95 %% intervals of %d draws of noise (%.2g %%, %s): Q +-%.1f %%, N +-%.1f %% of their largest entries; "
+      "CIEDE2000 mean %.2f to %.2f with M alone, %.2f to %.2f with M and Q; in-frustum error %.2g",
+      intervals.samples, 100 * result.noise.noise.relative, result.noise.words.c_str(),
+      100 * widthOf(intervals.correctedFromCamera), 100 * widthOf(intervals.frustumFromContent),
+      intervals.meanBefore.low, intervals.meanBefore.high, intervals.meanAfter.low, intervals.meanAfter.high,
+      intervals.frustumError);
+  return intervals.boundIsChosen
+             ? text + spectral::formatted(", least with N bounded at %g", intervals.largestCondition)
+             : text;
+}
+
+/// Rows of a matrix with the half widths of their intervals.
+std::string matrixRows(const Eigen::Matrix3d& matrix, const stage::Interval<Eigen::Matrix3d>& interval) {
+  std::string text;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    text += "   ";
+    for (Eigen::Index column = 0; column < 3; ++column) {
+      text += spectral::formatted(" %10.4f [%.4f, %.4f]", matrix(row, column), interval.low(row, column),
+                                  interval.high(row, column));
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 /// A patch's name cannot break the table.
 std::string cell(const std::string& name) {
   std::string text;
@@ -67,6 +127,9 @@ Json toJson(const stage::StageResult& result) {
   };
   json["dE_before"] = summary(result.before);
   json["dE_after"] = summary(result.after);
+  if (result.intervals) {
+    json["intervals"] = intervalsToJson(result);
+  }
   if (result.spectralSimilarity) {
     json["SSI"] = *result.spectralSimilarity;
   }
@@ -97,6 +160,9 @@ std::string summaryOf(const stage::StageResult& result) {
   if (!result.capture.skinPatches.empty()) {
     text += spectral::formatted("skin patches: M alone %.2f %.2f, M and Q %.2f %.2f\n", result.skinBefore.mean,
                                 result.skinBefore.max, result.skinAfter.mean, result.skinAfter.max);
+  }
+  if (result.intervals) {
+    text += intervalsInWords(result) + "\n";
   }
   if (!solution.tradeOffs.empty()) {
     text += "N, bounded at a condition number of Q: its gain over M, and the error of in-frustum colours\n";
@@ -144,6 +210,12 @@ std::string reportOf(const stage::StageResult& result, const std::string& figure
                               solution.frustumOffset[1], solution.frustumOffset[2], result.capture.wall.beta);
   text += spectral::formatted("Condition numbers: primaries %.3g, chart %.3g, Q %.3g.\n", solution.wallCondition,
                               solution.chartCondition, solution.correctionCondition);
+  if (result.intervals) {
+    text += "\n" + intervalsInWords(result) + ".\n\nQ with its intervals:\n\n" +
+            matrixRows(solution.correctedFromCamera, result.intervals->correctedFromCamera) +
+            "\nN with its intervals:\n\n" +
+            matrixRows(solution.frustumFromContent, result.intervals->frustumFromContent);
+  }
   if (!solution.tradeOffs.empty()) {
     text +=
         "\nN by the largest condition number that Q's inverse may have (`q.max_condition`):\n\n"

@@ -22,6 +22,7 @@ struct SolveOptions {
   std::string config;
   std::string base;
   std::string checkPictures;
+  stage::SolveChoices choices;
 };
 
 ocio::StageMatrices matricesOf(const stage::StageResult& result) {
@@ -53,7 +54,7 @@ void solve(const SolveOptions& options) {
   const auto library = spectral::DataLibrary::openDefault();
   const stage::StageDescription description = stage::readStage(options.stage);
   const stage::StageResult result =
-      stage::solveStage(description, readCapture(description, library, options.checkPictures));
+      stage::solveStage(description, readCapture(description, library, options.checkPictures), options.choices);
   if (!options.config.empty()) {
     spectral::writeWholeFile(options.config,
                              ocio::stageConfigText(matricesOf(result), library, options.config, options.base));
@@ -83,6 +84,16 @@ void addStageSolve(CLI::App& stage) {
   command->add_option("--figure", options->figure, "PNG to write: the chart as squares in squares");
   command->add_option("--check-pictures", options->checkPictures,
                       "PREFIX of pictures to write: the charts' pictures with the sampled squares drawn in");
+  command->add_flag("--as-captured", options->choices.asCaptured,
+                    "Solve although the captures show a mistake (swapped, mirrored, clipped ...): it becomes a note");
+  command
+      ->add_option("--samples", options->choices.samples,
+                   "Draws of the captures' noise for the 95 % intervals: 20 to 100000, or 0 for none; 500 by default")
+      ->check([](const std::string& text) {
+        const bool isNone = text == "0";
+        return isNone ? std::string() : CLI::Range(20, 100'000)(text);
+      });
+  command->add_option("--seed", options->choices.seed, "Of those draws; 1 by default");
   command->add_option("--luts", options->luts,
                       "PREFIX of transforms to write: PREFIX_out_of_frustum, _in_frustum and _post_correction, each "
                       "as .spimtx, .clf and .ctf");

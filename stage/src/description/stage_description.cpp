@@ -21,6 +21,8 @@ constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
 /// Stage files may not be larger than this.
 constexpr std::uintmax_t kLargestStageBytes = 1u << 20;
 constexpr double kLargestValue = 1e9;
+/// Relative noise above this is no capture.
+constexpr double kLargestNoise = 0.5;
 constexpr double kSmallestLengthM = 1e-3;
 constexpr double kLargestLengthM = 1e3;
 constexpr double kLargestPixel = 1e6;
@@ -187,6 +189,18 @@ void readEnvironment(const StageReader& reader, const YamlNode& node, StageDescr
   section.read("white_reflectance", stage.whiteReflectance, 1e-3, 1);
 }
 
+CaptureNoise readNoise(const StageReader& reader, const YamlSection& top, const YamlNode& node) {
+  CaptureNoise noise;
+  if (node.kind != Kind::Map) {
+    noise.relative = top.number(node, "noise", 0, kLargestNoise);
+    return noise;
+  }
+  const YamlSection section = reader.section(node, "noise", {"relative", "floor"});
+  section.read("relative", noise.relative, 0, kLargestNoise);
+  section.read("floor", noise.floor, 0, kLargestValue);
+  return noise;
+}
+
 }  // namespace
 
 StageDescription readStage(const std::filesystem::path& file) {
@@ -209,7 +223,7 @@ StageDescription parseStage(const std::string& text, const std::string& where, c
   const YamlSection top =
       reader.section(root, "",
                      {"metamer_stage", "name", "primaries", "charts", "spectra", "calibration_square", "environment",
-                      "black_level", "q", "saturation", "exclude", "colour_space"});
+                      "black_level", "q", "noise", "saturation", "exclude", "colour_space"});
   const YamlNode& version = top.require("metamer_stage", "is missing; a stage file starts with 'metamer_stage: 1'");
   if (version.kind != Kind::Scalar || version.text != "1") {
     throw top.error(version, "metamer_stage", version.text, "is a version this release does not read; it reads 1");
@@ -247,8 +261,15 @@ StageDescription parseStage(const std::string& text, const std::string& where, c
     section.read("preserve_white", stage.preserveWhite);
     section.read("white_patch", stage.whitePatch);
     section.read("skin_weight", stage.skinWeight, 0, 1e6);
-    section.read("max_condition", stage.largestCondition, 1, 1e12);
+    if (section.find("max_condition") != nullptr) {
+      double largest = kDefaultLargestCondition;
+      section.read("max_condition", largest, 1, 1e12);
+      stage.largestCondition = largest;
+    }
     stage.skinPatches = reader.names(section, "skin_patches");
+  }
+  if (const YamlNode* noise = top.find("noise")) {
+    stage.noise = readNoise(reader, top, *noise);
   }
   if (top.find("saturation") != nullptr) {
     double saturation = 0;

@@ -143,6 +143,9 @@ StageCapture captureOf(const StageDescription& description, const spectral::Data
     keepPatches(description.excluded, capture);
   } else {
     readCharts(description, readings.value(), capture);
+    capture.expectation = expectationOf(capture.wall.patchNames,
+                                        library.reflectances(description.layout.reflectances, description.folder),
+                                        description.layout.columns, description.layout.rows);
   }
   if (!description.colourSpace.empty() || !description.spectra) {
     capture.colourSpace = description.colourSpace.empty() ? kAssumedSpace : description.colourSpace;
@@ -174,6 +177,7 @@ StageCapture captureOf(const StageDescription& description, const spectral::Data
       throw InputError(description.where, "environment.white", "",
                        "is missing, and no white patch is there to take it from");
     }
+    capture.whiteIsFromTarget = true;
     capture.wall.environmentWhite = capture.wall.target.col(capture.whitePatch) / description.whiteReflectance;
     capture.notes.push_back("environment is not given: w_avg is the target's white patch, '" +
                             capture.wall.patchNames[static_cast<std::size_t>(capture.whitePatch)] + "'");

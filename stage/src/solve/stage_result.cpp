@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/stage/stage_result.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_similarity_index.h"
+#include "metamer/stage/capture_faults.h"
 #include "metamer/stage/fixture.h"
 
 namespace metamer::stage {
@@ -19,6 +21,11 @@ constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
 /// A drive below this is below zero, not rounding.
 constexpr double kNegativeDrive = -1e-9;
 constexpr std::size_t kMostNamed = 6;
+/// Of captures that say nothing of their own.
+constexpr double kAssumedNoise = 0.01;
+/// Patches times samples: about a second.
+constexpr Eigen::Index kMostPatchSamples = 1'000'000;
+constexpr Eigen::Index kFewestSamples = 50;
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -31,7 +38,7 @@ std::string listed(const std::vector<std::string>& names) {
 WallOptions optionsOf(const StageDescription& description, const StageCapture& capture) {
   WallOptions options;
   options.heldPatch = description.preserveWhite ? capture.whitePatch : -1;
-  options.largestCondition = description.largestCondition;
+  options.largestCondition = description.largestCondition.value_or(kDefaultLargestCondition);
   options.patchWeights = Eigen::VectorXd::Ones(capture.wall.target.cols());
   for (const int patch : capture.skinPatches) {
     options.patchWeights[patch] = description.skinWeight;
@@ -52,6 +59,74 @@ std::optional<double> similarityOf(const CaptureSpectra& spectra, const Eigen::V
     return std::nullopt;
   }
   return spectral::spectralSimilarityIndex(mixedLight(mixed), spectra.target);
+}
+
+/// A capture that shows a mistake is refused, or noted.
+void judgeCapture(const StageDescription& description, bool asCaptured, StageCapture& capture) {
+  if (capture.spectra) {
+    return;
+  }
+  const auto faults = captureFaults(capture.wall, capture.expectation, capture.whitePatch);
+  if (!faults.empty() && !asCaptured) {
+    const std::size_t others = faults.size() - 1;
+    std::string more;
+    for (std::size_t i = 1; i < faults.size() && i <= 2; ++i) {
+      more += (i == 1 ? "; so: " : ", ") + faults[i].field + (faults[i].value.empty() ? "" : " " + faults[i].value);
+    }
+    if (others > 2) {
+      more += formatted(" and %zu more", others - 2);
+    }
+    throw InputError(description.where, faults.front().field, faults.front().value, faults.front().remedy + more);
+  }
+  for (const CaptureFault& fault : faults) {
+    capture.notes.push_back("as captured: " + fault.field + (fault.value.empty() ? "" : " '" + fault.value + "'") +
+                            " " + fault.remedy);
+  }
+}
+
+NoiseSource noiseOf(const StageDescription& description, const StageCapture& capture) {
+  if (description.noise) {
+    return {*description.noise, "stated"};
+  }
+  if (capture.expectation) {
+    const WallCapture& wall = capture.wall;
+    return {{estimatedNoise(*capture.expectation, {wall.charts[0], wall.charts[1], wall.charts[2], wall.target}), 0},
+            "estimated from the charts"};
+  }
+  return {{kAssumedNoise, 0}, "assumed"};
+}
+
+/// Intervals of the solution; where the file states no bound of N, it is chosen from them and the wall solved with it.
+void addIntervals(const StageDescription& description, const SolveChoices& choices, WallOptions walls,
+                  StageResult& result) {
+  const StageCapture& capture = result.capture;
+  if (choices.samples == 0 || (capture.spectra && !description.noise)) {
+    return;
+  }
+  result.noise = noiseOf(description, capture);
+  IntervalOptions options;
+  options.noise = result.noise.noise;
+  options.samples = static_cast<int>(std::min<Eigen::Index>(
+      choices.samples, std::max(kFewestSamples, kMostPatchSamples / capture.wall.target.cols())));
+  options.seed = choices.seed;
+  options.choosesBound = !description.largestCondition;
+  options.whitePatch = capture.whiteIsFromTarget ? capture.whitePatch : -1;
+  options.whiteReflectance = description.whiteReflectance;
+  options.xyzFromCamera = capture.xyzFromCamera;
+  options.whiteRgb = result.whiteRgb;
+  options.exposurePatch = capture.whitePatch;
+  options.runAll = choices.runAll;
+  try {
+    result.intervals = wallIntervals(capture.wall, walls, options);
+  } catch (const InputError& error) {
+    result.notes.push_back(std::string("no intervals: with its noise the capture cannot be solved every time: ") +
+                           error.what());
+    return;
+  }
+  if (result.intervals->boundIsChosen) {
+    walls.largestCondition = result.intervals->largestCondition;
+    result.solution = solveWall(capture.wall, walls);
+  }
 }
 
 /// What the wall cannot do, and why.
@@ -88,18 +163,25 @@ void addReachNotes(StageResult& result) {
   if (solution.bounded) {
     result.notes.push_back(
         "Q is nearly of rank one (the target light is close to one wavelength): N is bounded by "
-        "q.max_condition, and in-frustum colours lose saturation; see the trade-off");
+        "q.max_condition" +
+        std::string(result.intervals && result.intervals->boundIsChosen
+                        ? formatted(" %g, chosen from the noise", result.intervals->largestCondition)
+                        : "") +
+        ", and in-frustum colours lose saturation; see the trade-off");
   }
 }
 
 }  // namespace
 
-StageResult solveStage(const StageDescription& description, StageCapture capture) {
+StageResult solveStage(const StageDescription& description, StageCapture capture, const SolveChoices& choices) {
   StageResult result;
   result.name = description.name;
   result.capture = std::move(capture);
+  judgeCapture(description, choices.asCaptured, result.capture);
+  WallOptions walls;
   try {
-    result.solution = solveWall(result.capture.wall, optionsOf(description, result.capture));
+    walls = optionsOf(description, result.capture);
+    result.solution = solveWall(result.capture.wall, walls);
   } catch (const InputError& error) {
     throw InputError(description.where, "", "", error.what());
   }
@@ -124,6 +206,7 @@ StageResult solveStage(const StageDescription& description, StageCapture capture
   result.skinBefore = summaryOf(result.differencesBefore, result.capture.skinPatches);
   result.skinAfter = summaryOf(result.differencesAfter, result.capture.skinPatches);
   result.notes = result.capture.notes;
+  addIntervals(description, choices, walls, result);
   addReachNotes(result);
   return result;
 }

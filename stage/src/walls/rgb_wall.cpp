@@ -26,7 +26,6 @@ constexpr double kCollinear = 1e4;
 constexpr double kSingularBelow = 1e-9;
 /// From here on Q's inverse deserves a second look.
 constexpr double kNotableCondition = 10;
-constexpr std::array<double, 5> kTradeOffLimits = {5, 10, 20, 50, 100};
 
 std::string text(const Vector3d& rgb) {
   char buffer[96];
@@ -122,6 +121,12 @@ Matrix3d boundedInverse(const Eigen::JacobiSVD<Matrix3d>& parts, double limit) {
 }
 
 }  // namespace
+
+Matrix3d boundedInverse(const Matrix3d& correctedFromCamera, double limit) {
+  const Eigen::JacobiSVD<Matrix3d> parts(correctedFromCamera, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return condition(parts.singularValues()) <= limit ? Matrix3d(correctedFromCamera.inverse())
+                                                    : boundedInverse(parts, limit);
+}
 
 WallSolution solveWall(const WallCapture& capture, const WallOptions& options) {
   check(capture, options);

@@ -21,6 +21,8 @@ struct WallCapture {
 
 /// The condition number of Q from which on N is bounded, unless the caller says otherwise.
 inline constexpr double kDefaultLargestCondition = 100;
+/// Bounds of N that are weighed against each other.
+inline constexpr std::array<double, 5> kTradeOffLimits = {5, 10, 20, 50, 100};
 
 struct WallOptions {
   int heldPatch = -1;            ///< patch whose colour Q holds exactly (white); -1: none
@@ -63,5 +65,9 @@ struct WallSolution {
 ///         a black level above the wall's signal, no patches, a held patch without light, charts, names or weights that
 ///         are not as many as the target's patches, an option out of its range
 WallSolution solveWall(const WallCapture& capture, const WallOptions& options = {});
+
+/// The inverse of Q with Q's singular values raised to the largest over `limit`; Q's own inverse where none is smaller.
+/// @param limit  1 or more, or infinite
+Eigen::Matrix3d boundedInverse(const Eigen::Matrix3d& correctedFromCamera, double limit);
 
 }  // namespace metamer::stage

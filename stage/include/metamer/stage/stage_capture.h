@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "metamer/spectral/data_library.h"
+#include "metamer/stage/chart_expectation.h"
 #include "metamer/stage/chart_table.h"
 #include "metamer/stage/rgb_wall.h"
 #include "metamer/stage/stage_description.h"
@@ -27,9 +28,11 @@ struct StageCapture {
   Eigen::Matrix3d xyzFromCamera;         ///< for colour differences
   Eigen::Vector3d cameraWhite{1, 1, 1};  ///< what is neutral in that space, for configs
   std::optional<CaptureSpectra> spectra;
-  int columns = 6;          ///< of the chart, for pictures of it
-  std::string colourSpace;  ///< what that matrix is: a space's name, or how it was found
-  int whitePatch = -1;      ///< the chart's white; -1: none fit for it
+  int columns = 6;                              ///< of the chart, for pictures of it
+  std::string colourSpace;                      ///< what that matrix is: a space's name, or how it was found
+  int whitePatch = -1;                          ///< the chart's white; -1: none fit for it
+  bool whiteIsFromTarget = false;               ///< w_avg is the white patch's, over its reflectance
+  std::optional<ChartExpectation> expectation;  ///< of a photographed chart whose patches are known
   std::vector<int> skinPatches;
   std::vector<ExcludedPatch> excluded;
   std::vector<std::string> notes;  ///< what a user should know about the input

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "metamer/stage/rgb_wall.h"
+#include "metamer/stage/wall_intervals.h"
 
 namespace metamer::stage {
 
@@ -50,6 +50,7 @@ struct StageLayout {
 ///     environment: {white: [1.1, 1.0, 0.8]}
 ///     black_level: [0, 0, 0]
 ///     q: {preserve_white: false, white_patch: white}
+///     noise: 0.01
 struct StageDescription {
   std::filesystem::path folder;  ///< where relative files are looked for: the stage file's own
   std::string where;             ///< what messages call it
@@ -71,7 +72,8 @@ struct StageDescription {
   std::string whitePatch;
   std::vector<std::string> skinPatches;
   double skinWeight = 1;
-  double largestCondition = kDefaultLargestCondition;
+  std::optional<double> largestCondition;  ///< of Q in N's inverse; without it chosen from the captures' noise
+  std::optional<CaptureNoise> noise;       ///< of the captures; without it estimated from the charts
   std::optional<double> saturation;
   std::vector<std::string> excluded;
   std::string colourSpace;  ///< of the camera's linear RGB, for colour differences and configs; empty: not said

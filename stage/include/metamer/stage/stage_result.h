@@ -8,8 +8,24 @@
 #include "metamer/stage/chart_difference.h"
 #include "metamer/stage/rgb_wall.h"
 #include "metamer/stage/stage_capture.h"
+#include "metamer/stage/wall_intervals.h"
 
 namespace metamer::stage {
+
+/// How a stage is solved, beside what its file says.
+struct SolveChoices {
+  /// Captures that show a mistake (captureFaults) are solved all the same, with a note for each.
+  bool asCaptured = false;
+  int samples = 500;  ///< of the intervals, 20 or more; fewer where there are thousands of patches. 0: no intervals
+  std::uint64_t seed = 1;
+  RunAll runAll;  ///< empty: one after another
+};
+
+/// Where the noise of the intervals is from.
+struct NoiseSource {
+  CaptureNoise noise;
+  std::string words;  ///< "stated", "estimated from the charts", "assumed"
+};
 
 /// A solved wall with what a report says of it.
 struct StageResult {
@@ -24,10 +40,12 @@ struct StageResult {
   DifferenceSummary before, after, skinBefore, skinAfter;
   Eigen::Vector3d whiteRgb{1, 1, 1};         ///< what counted as white in the differences
   std::optional<double> spectralSimilarity;  ///< SSI of the wall's white drive to the target, where spectra are known
+  std::optional<WallIntervals> intervals;    ///< 95 % of the solution, where something was captured
+  NoiseSource noise;                         ///< that they are of
   std::vector<std::string> notes;            ///< of the input, and what is out of reach and why
 };
 
-/// @throws spectral::InputError, naming the stage file
-StageResult solveStage(const StageDescription& description, StageCapture capture);
+/// @throws spectral::InputError, naming the stage file: captures that show a mistake, and as solveWall
+StageResult solveStage(const StageDescription& description, StageCapture capture, const SolveChoices& choices = {});
 
 }  // namespace metamer::stage
