@@ -3,12 +3,10 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <string>
 
-#include "inverse/in_parallel.h"
+#include "colours/in_parallel.h"
+#include "colours/pixel_checks.h"
 #include "inverse/most_probable.h"
-#include "metamer/spectral/argument_checks.h"
-#include "metamer/spectral/input_error.h"
 
 namespace metamer::skin {
 namespace {
@@ -45,45 +43,26 @@ bool canBeSkin(const Vector3d& rgb) {
   return rgb.allFinite() && rgb.mean() > 0 && rgb.mean() < kMostLight;
 }
 
-void requireThree(std::size_t values, std::size_t pixels) {
-  if (values != 3 * pixels) {
-    throw spectral::InputError("", "rgb", std::to_string(values),
-                               "must be three numbers a pixel, " + std::to_string(3 * pixels));
-  }
-}
-
-void requireThreads(int threads) {
-  spectral::requireWithin("threads", threads, 1, 256);
-}
-
 }  // namespace
 
 struct SkinEstimator::State {
-  SkinPrior prior;
-  SkinTable table;
-  SkinView view;
-  SkinView::Weights weights;  ///< RGB from the table's albedo, the misfit repaired
+  SkinColours colours;
   MostProbable mostProbable;
   Eigen::Array3d start;
   Eigen::Array3d scale;
   std::vector<Eigen::Array<float, 5, 1>> knots;  ///< coordinates, by the three axes
 
-  State(const spectral::DataLibrary& library, const SkinView& given)
-      : prior(SkinPrior::read(library)),
-        table(SkinModel(library)),
-        view(given),
-        weights(given.rgbWeights() * (1 + prior.misfit.array()).matrix().asDiagonal()),
-        mostProbable(prior, [this](const SkinCoordinates& at) { return colourOf(at); }) {}
-
-  Vector3d colourOf(const SkinCoordinates& at) const { return weights * table.albedo(skinOf(at)); }
+  State(const spectral::DataLibrary& library, const SkinView& view)
+      : colours(library, view),
+        mostProbable(colours.prior(), [this](const SkinCoordinates& at) { return colours.rgb(skinOf(at)); }) {}
 
   void layAxes() {
-    SkinPrior wide = prior;
+    SkinPrior wide = colours.prior();
     wide.standardDeviation *= kWidening;
     Eigen::Array3d low = Eigen::Array3d::Constant(INFINITY);
     Eigen::Array3d high = -low;
     for (const SkinParameters& skin : sampleSkins(wide, kWideningDraws, 1)) {
-      const Vector3d rgb = weights * table.albedo(skin);
+      const Vector3d rgb = colours.rgb(skin);
       // Cameras' matrices may leave a dark skin without brightness.
       if (rgb.mean() > 0) {
         low = low.min(placeOf(rgb, rgb.mean()));
@@ -109,7 +88,7 @@ struct SkinEstimator::State {
   }
 
   void solveColumn(int first, int second) {
-    SkinCoordinates middle = mostProbable.of(colourAt(first, second, kStartKnot), prior.mean);
+    SkinCoordinates middle = mostProbable.of(colourAt(first, second, kStartKnot), colours.prior().mean);
     for (const int direction : {1, -1}) {
       SkinCoordinates at = middle;
       for (int i = direction > 0 ? kStartKnot : kStartKnot - 1; i >= 0 && i < kAlongBrightness; i += direction) {
@@ -154,23 +133,6 @@ struct SkinEstimator::State {
     const Eigen::Array<float, 5, 1> far = along(1, 0) + b * (along(1, 1) - along(1, 0));
     return (near + a * (far - near)).cast<double>().matrix();
   }
-
-  Vector3f model(const SkinPixel& pixel) const {
-    return (static_cast<double>(pixel.gain) * (weights * table.albedo(withinRanges(pixel.parameters())))).cast<float>();
-  }
-
-  /// The skin of coordinates, a gain, and what they leave of a colour.
-  SkinPixel pixel(const SkinCoordinates& at, double gain, const Vector3f& rgb) const {
-    const SkinParameters skin = skinOf(at);
-    SkinPixel result;
-    result.skin = {static_cast<float>(skin.melanin), static_cast<float>(skin.blood),
-                   static_cast<float>(skin.thicknessUm), static_cast<float>(skin.eumelanin),
-                   static_cast<float>(skin.deoxyhaemoglobin)};
-    result.gain = static_cast<float>(gain);
-    // Of the rounded numbers, so that they give the colour back.
-    Vector3f::Map(result.residual.data()) = gain == 0 ? rgb : Vector3f(rgb - model(result));
-    return result;
-  }
 };
 
 SkinEstimator::SkinEstimator(const spectral::DataLibrary& library, const SkinView& view, int threads) {
@@ -184,10 +146,10 @@ SkinPixel SkinEstimator::estimate(const Vector3f& rgb) const {
   const Vector3d colour = rgb.cast<double>();
   const double mean = colour.mean();
   if (!canBeSkin(colour)) {
-    return m_state->pixel(m_state->prior.mean, 0, rgb);
+    return m_state->colours.pixel(skinOf(m_state->colours.prior().mean), 0, rgb);
   }
   const Place place = m_state->place(colour, mean);
-  return m_state->pixel(m_state->read(place.at), place.gain, rgb);
+  return m_state->colours.pixel(skinOf(m_state->read(place.at)), place.gain, rgb);
 }
 
 void SkinEstimator::estimate(std::span<const float> rgb, std::span<SkinPixel> pixels, int threads) const {
@@ -200,38 +162,17 @@ void SkinEstimator::estimate(std::span<const float> rgb, std::span<SkinPixel> pi
   });
 }
 
-Vector3f SkinEstimator::colour(const SkinPixel& pixel) const {
-  const Vector3f residual(pixel.residual[0], pixel.residual[1], pixel.residual[2]);
-  return pixel.gain == 0 ? residual : Vector3f(m_state->model(pixel) + residual);
-}
-
-void SkinEstimator::colour(std::span<const SkinPixel> pixels, std::span<float> rgb, int threads) const {
-  requireThree(rgb.size(), pixels.size());
-  requireThreads(threads);
-  inParallel(pixels.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Vector3f::Map(&rgb[3 * i]) = colour(pixels[i]);
-    }
-  });
-}
-
-SkinSpectrum SkinEstimator::spectrum(const SkinPixel& pixel) const {
-  const Vector3d residual(pixel.residual[0], pixel.residual[1], pixel.residual[2]);
-  return static_cast<double>(pixel.gain) * albedo(withinRanges(pixel.parameters())) +
-         m_state->view.smoothest() * residual;
-}
-
-SkinSpectrum SkinEstimator::albedo(const SkinParameters& skin) const {
-  return repaired(m_state->table.albedo(skin), m_state->prior);
+const SkinColours& SkinEstimator::colours() const {
+  return m_state->colours;
 }
 
 SkinIdentification SkinEstimator::identification() const {
   const State& state = *m_state;
-  const SkinCoordinates at = state.prior.mean;
-  const Vector3d colour = state.colourOf(at);
+  const SkinCoordinates at = state.colours.prior().mean;
+  const Vector3d colour = state.colours.rgb(skinOf(at));
   const MostProbable::Jacobian slope = state.mostProbable.slope(at, colour) / (kColourNoise * colour.mean());
   const Eigen::Matrix<double, 5, 5> known = (slope.transpose() * slope + state.mostProbable.precision()).inverse();
-  const Eigen::Matrix<double, 5, 5> before = state.prior.covariance();
+  const Eigen::Matrix<double, 5, 5> before = state.colours.prior().covariance();
   SkinIdentification result;
   for (Eigen::Index i = 0; i < 5; ++i) {
     result.explained[static_cast<std::size_t>(i)] = 1 - known(i, i) / before(i, i);
@@ -246,10 +187,11 @@ SkinPixel SkinEstimator::estimateBySolving(const Vector3d& rgb) const {
   const double mean = rgb.mean();
   const Vector3f given = rgb.cast<float>();
   if (!canBeSkin(rgb)) {
-    return m_state->pixel(m_state->prior.mean, 0, given);
+    return m_state->colours.pixel(skinOf(m_state->colours.prior().mean), 0, given);
   }
   const double gain = mean / std::clamp(mean, kDarkest, kBrightest);
-  return m_state->pixel(m_state->mostProbable.of(rgb / gain, m_state->prior.mean), gain, given);
+  const SkinCoordinates found = m_state->mostProbable.of(rgb / gain, m_state->colours.prior().mean);
+  return m_state->colours.pixel(skinOf(found), gain, given);
 }
 
 }  // namespace metamer::skin

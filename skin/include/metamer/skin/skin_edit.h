@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "metamer/skin/skin_estimator.h"
+#include "metamer/skin/skin_pixel.h"
 
 namespace metamer::skin {
 

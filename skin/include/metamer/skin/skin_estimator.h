@@ -7,21 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "metamer/skin/skin_parameters.h"
-#include "metamer/skin/skin_prior.h"
-#include "metamer/skin/skin_table.h"
+#include "metamer/skin/skin_colours.h"
+#include "metamer/skin/skin_pixel.h"
 #include "metamer/skin/skin_view.h"
 
 namespace metamer::skin {
-
-/// A pixel of an albedo picture as skin. Its colour is gain times the skin's, plus the residual.
-struct SkinPixel {
-  std::array<float, 5> skin{};      ///< melanin, blood, thickness in micrometres, eumelanin, deoxyhaemoglobin
-  float gain = 1;                   ///< how much brighter or darker than any skin of its chromaticity; 1 inside
-  std::array<float, 3> residual{};  ///< linear RGB
-
-  SkinParameters parameters() const { return {skin[0], skin[1], skin[2], skin[3], skin[4]}; }
-};
 
 /// What colour says about each parameter, and what is left to the prior, at the mean skin.
 struct SkinIdentification {
@@ -51,15 +41,16 @@ class SkinEstimator {
   /// The same for many, three numbers a pixel. @throws spectral::InputError where the lengths do not fit
   void estimate(std::span<const float> rgb, std::span<SkinPixel> pixels, int threads = 1) const;
 
-  /// The colour of a pixel: of an estimated one that was not edited, what it was, to 1e-6 of its size.
-  Eigen::Vector3f colour(const SkinPixel& pixel) const;
-  void colour(std::span<const SkinPixel> pixels, std::span<float> rgb, int threads = 1) const;
-  /// Its reflectance at the skin bands: gain times the skin's, and the residual as the smoothest spectrum of its
-  /// colour, so that it has exactly that colour in this view. May be negative where the residual is.
-  SkinSpectrum spectrum(const SkinPixel& pixel) const;
+  /// The way back, in the same view.
+  const SkinColours& colours() const;
+  /// As SkinColours has them.
+  Eigen::Vector3f colour(const SkinPixel& pixel) const { return colours().colour(pixel); }
+  void colour(std::span<const SkinPixel> pixels, std::span<float> rgb, int threads = 1) const {
+    colours().colour(pixels, rgb, threads);
+  }
+  SkinSpectrum spectrum(const SkinPixel& pixel) const { return colours().spectrum(pixel); }
+  SkinSpectrum albedo(const SkinParameters& skin) const { return colours().albedo(skin); }
 
-  /// The model's albedo as this estimator uses it: the table's, with the mean misfit repaired.
-  SkinSpectrum albedo(const SkinParameters& skin) const;
   SkinIdentification identification() const;
 
   /// The most probable skin of a colour, solved without the table, and its gain: for comparison.
