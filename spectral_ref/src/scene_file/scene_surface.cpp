@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "scene_file/scene_skin.h"
+
 namespace metamer::spectral_ref {
 namespace {
 
@@ -150,6 +152,9 @@ Surface readSurface(const SceneSection& shape, SceneSpectra& spectra, Scene& sce
     given.colour = spectra.find(*diffuse, Use::Reflectance);
     set(*diffuse, given);
   }
+  if (const auto skin = shape.find("skin")) {
+    set(*skin, readSkin(*skin, spectra));
+  }
   if (const auto gel = shape.find("gel")) {
     Material given;
     given.kind = Material::Kind::Gel;
@@ -170,7 +175,7 @@ Surface readSurface(const SceneSection& shape, SceneSpectra& spectra, Scene& sce
     surface.emission = Emission{id};
   }
   if (!material && !surface.emission) {
-    throw shape.error("", "has no material; give diffuse, conductor, dielectric, gel or emission");
+    throw shape.error("", "has no material; give diffuse, skin, conductor, dielectric, gel or emission");
   }
   scene.materials.push_back(material.value_or(Material{}));
   surface.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
