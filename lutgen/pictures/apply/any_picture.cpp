@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 
+#include "apply/sample_types.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
@@ -45,21 +46,9 @@ std::unique_ptr<ImageOutput> outputFor(const std::string& file) {
   return output;
 }
 
-TypeDesc typeOf(const ImageSpec& spec, int channel) {
-  return spec.channelformat(channel);
-}
-
 bool isWhole(TypeDesc type) {
   return type.basetype == TypeDesc::UINT32 || type.basetype == TypeDesc::INT32 || type.basetype == TypeDesc::UINT64 ||
          type.basetype == TypeDesc::INT64;
-}
-
-std::size_t offsetOf(const ImageSpec& spec, int channel) {
-  std::size_t offset = 0;
-  for (int c = 0; c < channel; ++c) {
-    offset += typeOf(spec, c).size();
-  }
-  return offset;
 }
 
 /// Bits of the full code, where they are fewer than those of the type.
@@ -181,8 +170,7 @@ void AnyPicture::plan(const std::filesystem::path& outputFile, const std::vector
       after.channelformats.clear();
       for (int c = 0; c < after.nchannels; ++c) {
         const TypeDesc own = typeOf(part.before, c);
-        after.channelformats.push_back(
-            own == TypeDesc::HALF || own == TypeDesc::FLOAT || own == TypeDesc::UINT32 ? own : type->type);
+        after.channelformats.push_back(isExrType(own) ? own : type->type);
       }
       for (const ColourLayer& layer : part.layers) {
         for (const int channel : {layer.channels[0], layer.channels[1], layer.channels[2], layer.alpha}) {
@@ -238,16 +226,21 @@ void AnyPicture::plan(const std::filesystem::path& outputFile, const std::vector
   }
 }
 
-void AnyPicture::describe(const std::string& oiioSpace, const std::optional<std::array<float, 8>>& chromaticities) {
-  for (Part& part : m_parts) {
+void AnyPicture::describe(const std::string& oiioSpace, const std::optional<std::array<float, 8>>& chromaticities,
+                          std::optional<int> onlyPart) {
+  for (std::size_t p = 0; p < m_parts.size(); ++p) {
+    if (onlyPart && static_cast<int>(p) != *onlyPart) {
+      continue;
+    }
+    ImageSpec& after = m_parts[p].after;
     for (const char* name : {"oiio:ColorSpace", "oiio:Gamma", "colorInteropID", "ICCProfile"}) {
-      part.after.erase_attribute(name);
+      after.erase_attribute(name);
     }
     if (!oiioSpace.empty()) {
-      part.after.attribute("oiio:ColorSpace", oiioSpace);
+      after.attribute("oiio:ColorSpace", oiioSpace);
     }
     if (chromaticities) {
-      part.after.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), chromaticities->data());
+      after.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), chromaticities->data());
     }
   }
 }
@@ -366,6 +359,24 @@ void AnyPicture::write(const std::filesystem::path& outputFile, const PixelFunct
     read(*input, p);
     change(m_parts[p], pixels, threads);
   }
+  writeWhole(outputFile);
+}
+
+void AnyPicture::load() {
+  const auto input = opened(m_file);
+  for (std::size_t p = 0; p < m_parts.size(); ++p) {
+    read(*input, p);
+  }
+}
+
+void AnyPicture::save(const std::filesystem::path& outputFile, int threads) {
+  for (Part& part : m_parts) {
+    change(part, {}, threads);
+  }
+  writeWhole(outputFile);
+}
+
+void AnyPicture::writeWhole(const std::filesystem::path& outputFile) const {
   spectral::PendingFile pending(outputFile);
   const std::string name = outputFile.string();
   const auto output = outputFor(name);

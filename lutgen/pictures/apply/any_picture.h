@@ -42,11 +42,29 @@ class AnyPicture {
   void plan(const std::filesystem::path& output, const std::vector<ColourLayer>& layers, const SampleType* type,
             const std::string& compression);
 
-  /// Of the written parts: what they say of their pixels.
-  void describe(const std::string& oiioSpace, const std::optional<std::array<float, 8>>& chromaticities);
+  /// Of the written parts, or of one: what they say of their pixels.
+  void describe(const std::string& oiioSpace, const std::optional<std::array<float, 8>>& chromaticities,
+                std::optional<int> onlyPart = {});
 
   /// Reads, changes and writes, whole or not at all. Pixels that are not finite stay.
   void write(const std::filesystem::path& output, const PixelFunction& pixels, int threads);
+
+  // In steps, for what makes other channels of some: load, values, exchange, plan, put, save.
+
+  /// Reads the pixels of all parts. @throws spectral::InputError
+  void load();
+  /// Samples of some channels of a part, a pixel after another.
+  std::vector<float> values(int part, const std::vector<int>& channels) const;
+  /// Takes channels away and adds others of floats, black, behind those that stay. What OpenEXR holds no samples of
+  /// becomes float.
+  void exchange(int part, const std::vector<int>& removed, const std::vector<std::string>& added);
+  /// Fills float channels, side by side from `first` on. @param values  as many a pixel as there are of them
+  void put(int part, int first, const std::vector<float>& values);
+  /// A text of the header; empty: none.
+  std::string text(int part, const std::string& attribute) const;
+  void setText(int part, const std::string& attribute, const std::string& text);
+  /// Writes what is loaded, as planned, whole or not at all. @throws spectral::InputError
+  void save(const std::filesystem::path& output, int threads);
 
  private:
   struct Part {
@@ -58,6 +76,7 @@ class AnyPicture {
 
   void read(OIIO::ImageInput& input, std::size_t index);
   void change(Part& part, const PixelFunction& pixels, int threads) const;
+  void writeWhole(const std::filesystem::path& output) const;
   /// @param name  for messages
   void writeParts(OIIO::ImageOutput& output, const std::string& path, const std::string& name) const;
 

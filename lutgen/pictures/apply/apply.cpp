@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
+#include "apply/frame_report.h"
 #include "apply/frames.h"
 #include "apply/relight.h"
 #include "apply/sequence.h"
 #include "apply/transform.h"
 #include "metamer/spectral/formatted.h"
-#include "metamer/spectral/platform.h"
 #include "picture_commands.h"
-#include "progress.h"
 #include "run.h"
 
 namespace metamer::lutgen {
@@ -52,32 +50,6 @@ void takeFrames(ApplyOptions& options) {
                                           "' is neither; frames are written as 1001-1100");
 }
 
-/// What a farm's log and a person see.
-class Report {
- public:
-  Report(std::size_t frameCount, bool isQuiet)
-      : m_count(frameCount),
-        m_hasLines(!isQuiet && frameCount > 1 && !spectral::errorStreamIsTerminal()),
-        m_hasShare(!isQuiet && frameCount > 1 && !m_hasLines),
-        m_progress("lutgen apply", false) {}
-
-  void done(const Frame& frame, std::size_t count) {
-    if (m_hasLines) {
-      std::cerr << "lutgen: frame " + std::to_string(frame.number) + " done, " + std::to_string(count) + " of " +
-                       std::to_string(m_count) + ": " + frame.output.string() + "\n"
-                << std::flush;
-    } else if (m_hasShare) {
-      m_progress.show(static_cast<double>(count) / static_cast<double>(m_count));
-    }
-  }
-
- private:
-  std::size_t m_count;
-  bool m_hasLines;
-  bool m_hasShare;
-  Progress m_progress;
-};
-
 void apply(ApplyOptions options) {
   takeFrames(options);
   options.picture.layers.channels = commaSeparated(options.channels);
@@ -92,7 +64,7 @@ void apply(ApplyOptions options) {
   relighter.use(transform);
   const ThreadShare share = shareThreads(options.transform.threads, frames.size(), bytes);
   {
-    Report report(frames.size(), isQuiet());
+    FrameReport report("lutgen apply", frames.size());
     forEachFrame(
         frames, share, [&](const Frame& frame) { relighter.relight(frame.input, frame.output, share.inFrame); },
         [&](const Frame& frame, std::size_t count) { report.done(frame, count); });

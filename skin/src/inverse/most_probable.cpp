@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMostRounds = 25;
 constexpr double kStepOfDeviation = 0.05;
-constexpr double kEnough = 1e-4;
+constexpr double kEnough = 1e-3;
 
 }  // namespace
 
