@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stage/fixture_options.h"
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
 #include "metamer/sip/pipeline.h"
 #include "metamer/spectral/input_error.h"
 
@@ -48,6 +52,51 @@ Eigen::Matrix3d xyzFromResponseUnder(const spectral::Spectrum& light, const spec
     training.push_back(sample.onDomain());
   }
   return sip::prepare({light, {}, observer}, training, library.observer(kStandardObserver)).xyzFromResponse;
+}
+
+spectral::Spectrum filteredLight(const spectral::Spectrum& light, const std::string& text,
+                                 const spectral::DataLibrary& library) {
+  std::string name = text;
+  double density = 1;
+  const std::size_t colon = text.rfind(':');
+  if (colon != std::string::npos && colon > 0) {
+    const char* end = text.data() + text.size();
+    const auto parsed = std::from_chars(text.data() + colon + 1, end, density);
+    if (parsed.ec == std::errc() && parsed.ptr == end) {
+      if (!std::isfinite(density) || density < 0) {
+        throw spectral::InputError("--filters", "density", text,
+                                   "must be 0 or more, and finite; 1 is the filter as it is");
+      }
+      name = text.substr(0, colon);
+    } else {
+      density = 1;
+    }
+  }
+  const spectral::Spectrum filter = library.filter(name);
+  // Every knot of either, and each nanometre: the product of straight lines is close to straight between them.
+  std::vector<double> knots = light.wavelengthsNm();
+  const double first = knots.front();
+  const double last = knots.back();
+  for (int nm = spectral::kDomainStartNm; nm <= spectral::kDomainEndNm; ++nm) {
+    knots.push_back(nm);
+  }
+  knots.insert(knots.end(), filter.wavelengthsNm().begin(), filter.wavelengthsNm().end());
+  std::sort(knots.begin(), knots.end());
+  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
+  std::vector<double> wavelengthsNm;
+  std::vector<double> values;
+  for (const double nm : knots) {
+    if (nm >= first && nm <= last) {
+      wavelengthsNm.push_back(nm);
+      values.push_back(light.at(nm) * std::pow(std::max(0.0, filter.at(nm)), density));
+    }
+  }
+  spectral::Spectrum product(light.name() + " + " + text, light.quantity(), wavelengthsNm, values);
+  return light.isOfFormula() ? product.ofFormula() : product;
+}
+
+std::string samplesCheck(const std::string& text) {
+  return text == "0" ? std::string() : CLI::Range(20, 100'000)(text);
 }
 
 }  // namespace metamer::lutgen

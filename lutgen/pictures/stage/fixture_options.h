@@ -26,4 +26,13 @@ stage::DriveLimits limitsOf(const FixtureLimits& limits, std::size_t emitterCoun
 Eigen::Matrix3d xyzFromResponseUnder(const spectral::Spectrum& light, const spectral::Observer& observer,
                                      const spectral::DataLibrary& library);
 
+/// A light behind a filter.
+/// @param text  NAME or FILE, with ":density" where it is not 1
+/// @throws spectral::InputError
+spectral::Spectrum filteredLight(const spectral::Spectrum& light, const std::string& text,
+                                 const spectral::DataLibrary& library);
+
+/// What --samples may be: 0, or enough. Empty where it is, else what CLI11 says.
+std::string samplesCheck(const std::string& text);
+
 }  // namespace metamer::lutgen

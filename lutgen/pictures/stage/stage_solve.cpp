@@ -5,6 +5,7 @@
 #include "metamer/ocio/stage_config.h"
 #include "metamer/spectral/pending_file.h"
 #include "stage/chart_figure.h"
+#include "stage/fixture_options.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
 #include "stage/stage_reading.h"
@@ -89,10 +90,7 @@ void addStageSolve(CLI::App& stage) {
   command
       ->add_option("--samples", options->choices.samples,
                    "Draws of the captures' noise for the 95 % intervals: 20 to 100000, or 0 for none; 500 by default")
-      ->check([](const std::string& text) {
-        const bool isNone = text == "0";
-        return isNone ? std::string() : CLI::Range(20, 100'000)(text);
-      });
+      ->check(samplesCheck);
   command->add_option("--seed", options->choices.seed, "Of those draws; 1 by default");
   command->add_option("--luts", options->luts,
                       "PREFIX of transforms to write: PREFIX_out_of_frustum, _in_frustum and _post_correction, each "

@@ -110,6 +110,9 @@ MatchOutcome matchSpectra(const MatchRequest& request, const Fixture& fixture, c
   outcome.patches = charted.names;
   outcome.wanted = chartUnder(light, curves, charted);
   outcome.made = chartUnder(mixed, curves, charted);
+  for (Eigen::Index k = 0; k < fixture.columns.cols(); ++k) {
+    outcome.emitterCharts.push_back(chartUnder(fixture.columns.col(k), curves, charted));
+  }
   if (mixed.maxCoeff() > 0) {
     outcome.spectralSimilarity = spectral::spectralSimilarityIndex(mixedLight(mixed), target);
   }
@@ -159,6 +162,7 @@ MatchOutcome matchCharts(const MatchRequest& request, std::vector<ChartTable> em
   for (std::size_t k = 0; k < aligned.charts.size(); ++k) {
     outcome.made += outcome.match.drives[static_cast<Eigen::Index>(k)] * aligned.charts[k];
   }
+  outcome.emitterCharts = std::move(aligned.charts);
   return outcome;
 }
 

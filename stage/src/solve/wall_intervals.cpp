@@ -82,17 +82,6 @@ Sample solved(const WallCapture& capture, const WallOptions& walls, const Interv
   return sample;
 }
 
-Interval<double> ends(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    const double place = share * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
-  };
-  return {at(kTail), at(1 - kTail)};
-}
-
 template <typename Value, typename Take>
 Interval<Value> ends(const std::vector<Sample>& samples, const Take& take) {
   Interval<Value> result;
@@ -101,7 +90,7 @@ Interval<Value> ends(const std::vector<Sample>& samples, const Take& take) {
     for (std::size_t s = 0; s < samples.size(); ++s) {
       values[s] = take(samples[s]).reshaped()[i];
     }
-    const Interval<double> one = ends(values);
+    const Interval<double> one = endsOf(values);
     result.low.reshaped()[i] = one.low;
     result.high.reshaped()[i] = one.high;
   }
@@ -114,7 +103,7 @@ Interval<double> turnedEnds(const std::vector<Sample>& samples, const Sample& ce
   for (std::size_t s = 0; s < samples.size(); ++s) {
     values[s] = take(samples[s]);
   }
-  const Interval<double> found = ends(std::move(values));
+  const Interval<double> found = endsOf(std::move(values));
   return {std::max(0.0, 2 * take(centre) - found.high), std::max(0.0, 2 * take(centre) - found.low)};
 }
 
@@ -128,6 +117,17 @@ void check(const IntervalOptions& options, Eigen::Index patches) {
 }
 
 }  // namespace
+
+Interval<double> endsOf(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    const double place = share * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+  };
+  return {at(kTail), at(1 - kTail)};
+}
 
 double normalNumber(std::uint64_t seed, std::uint64_t sample, std::uint64_t place) {
   const std::uint64_t key = mixed(mixed(mixed(seed) ^ sample) ^ place);

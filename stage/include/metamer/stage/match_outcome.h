@@ -31,10 +31,11 @@ struct MatchOutcome {
   std::vector<bool> models;  ///< emitters that were not measured
   EmitterMatch match;
   std::vector<std::string> patches;
-  Eigen::Matrix3Xd wanted;          ///< the chart in the target light, as the observer responds
-  Eigen::Matrix3Xd made;            ///< in the emitters' light
-  Eigen::Matrix3d xyzFromResponse;  ///< any scale
-  Eigen::Vector3d white;            ///< response to white
+  Eigen::Matrix3Xd wanted;                      ///< the chart in the target light, as the observer responds
+  Eigen::Matrix3Xd made;                        ///< in the emitters' light
+  std::vector<Eigen::Matrix3Xd> emitterCharts;  ///< under each emitter at a drive of 1
+  Eigen::Matrix3d xyzFromResponse;              ///< any scale
+  Eigen::Vector3d white;                        ///< response to white
   std::optional<double> spectralSimilarity;
   std::vector<ExcludedPatch> excluded;
   std::vector<std::string> notes;

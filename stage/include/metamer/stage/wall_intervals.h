@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "metamer/stage/rgb_wall.h"
 
@@ -39,6 +40,9 @@ struct Interval {
   Value low;
   Value high;
 };
+
+/// @param values  at least one, in any order; linear between neighbours
+Interval<double> endsOf(std::vector<double> values);
 
 struct WallIntervals {
   int samples = 0;
