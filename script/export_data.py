@@ -37,6 +37,7 @@ GROUPS = (
     "pixels",
     "chromophores",
     "skin_prior",
+    "skin_network",
 )
 
 

@@ -11,6 +11,8 @@
 #include "bindings.h"
 #include "metamer/skin/skin_edit.h"
 #include "metamer/skin/skin_estimator.h"
+#include "metamer/skin/skin_network.h"
+#include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 #include "spectrum_like.h"
 
@@ -88,6 +90,41 @@ NumpyDoubles albedo(nb::handle skins, bool repair) {
   });
 }
 
+std::vector<double> wavelengthsFrom(nb::handle wavelengths) {
+  const Doubles array = doubles(wavelengths);
+  return {array.data(), array.data() + array.size()};
+}
+
+/// The model's albedo at any wavelengths, nothing repaired.
+NumpyDoubles albedoAt(nb::handle skins, nb::handle wavelengths) {
+  const skin::SkinModel model(libraryOr(nullptr), wavelengthsFrom(wavelengths));
+  const Doubles array = doubles(skins);
+  const std::vector<std::size_t> shape = shapeWith(array, kParameters, model.optics().wavelengthsNm().size(), "skins");
+  return newDoubles(shape, [&](double* to) {
+    for (std::size_t i = 0; i < array.size(); i += kParameters) {
+      const Eigen::VectorXd spectrum = model.albedo(parametersAt(array.data() + i));
+      to = std::copy(spectrum.begin(), spectrum.end(), to);
+    }
+  });
+}
+
+/// What absorbs in skin, in 1/cm where it is alone.
+nb::dict absorption(nb::handle wavelengths) {
+  const skin::SkinOptics optics(libraryOr(nullptr), wavelengthsFrom(wavelengths));
+  const auto size = static_cast<std::size_t>(optics.baseline().size());
+  const auto array = [size](const Eigen::ArrayXd& values) {
+    return newDoubles({size}, [&](double* to) { std::copy(values.begin(), values.end(), to); });
+  };
+  nb::dict result;
+  result["eumelanin"] = array(optics.eumelanin());
+  result["pheomelanin"] = array(optics.pheomelanin());
+  result["oxyhaemoglobin"] = array(optics.oxyhaemoglobin());
+  result["deoxyhaemoglobin"] = array(optics.deoxyhaemoglobin());
+  result["baseline"] = array(optics.baseline());
+  result["blood_rest"] = array(optics.bloodRest());
+  return result;
+}
+
 NumpyDoubles sample(int count, std::uint32_t seed) {
   const std::vector<SkinParameters> skins = skin::sampleSkins(prior(), count, seed);
   return newDoubles({skins.size(), kParameters}, [&](double* to) {
@@ -106,7 +143,28 @@ void construct(SkinEstimator* self, nb::handle illuminant, nb::handle observer, 
   new (self) SkinEstimator(libraryOr(nullptr), view, threads);
 }
 
-NumpyDoubles estimate(const SkinEstimator& self, nb::handle rgb, int threads) {
+void constructNetwork(skin::SkinNetwork* self, const std::string& space, const std::string& loss) {
+  if (loss != "spectral" && loss != "rgb") {
+    throw spectral::InputError("", "loss", loss, "must be spectral or rgb");
+  }
+  new (self) skin::SkinNetwork(libraryOr(nullptr), libraryOr(nullptr).colourSpace(space).linear,
+                               loss == "rgb" ? skin::SkinNetwork::Loss::Rgb : skin::SkinNetwork::Loss::Spectral);
+}
+
+/// What the decoder makes of skins.
+NumpyDoubles decoded(const skin::SkinNetwork& self, nb::handle skins) {
+  const Doubles array = doubles(skins);
+  const auto outputs = static_cast<std::size_t>(self.decoded({}).size());
+  return newDoubles(shapeWith(array, kParameters, outputs, "skins"), [&](double* to) {
+    for (std::size_t i = 0; i < array.size(); i += kParameters) {
+      const Eigen::VectorXd one = self.decoded(parametersAt(array.data() + i));
+      to = std::copy(one.begin(), one.end(), to);
+    }
+  });
+}
+
+template <typename Estimator>
+NumpyDoubles estimate(const Estimator& self, nb::handle rgb, int threads) {
   const Doubles array = doubles(rgb);
   const std::vector<std::size_t> shape = shapeWith(array, 3, kMaps, "rgb");
   std::vector<float> numbers(array.size());
@@ -120,14 +178,15 @@ NumpyDoubles estimate(const SkinEstimator& self, nb::handle rgb, int threads) {
   return mapsOf(pixels, shape);
 }
 
-NumpyDoubles colour(const SkinEstimator& self, nb::handle maps, int threads) {
+template <typename Estimator>
+NumpyDoubles colour(const Estimator& self, nb::handle maps, int threads) {
   const Doubles array = doubles(maps);
   const std::vector<std::size_t> shape = shapeWith(array, kMaps, 3, "maps");
   const std::vector<SkinPixel> pixels = pixelsOf(array);
   std::vector<float> rgb(3 * pixels.size());
   {
     const nb::gil_scoped_release release;
-    self.colour(pixels, rgb, threads);
+    self.colours().colour(pixels, rgb, threads);
   }
   return newDoubles(shape, [&](double* to) { std::copy(rgb.begin(), rgb.end(), to); });
 }
@@ -234,6 +293,28 @@ void bindEdits(nb::module_& module) {
   defineEdit(module, "bleach_skin", "strength", &skin::bleachSkin, "Skin without melanin, as in vitiligo: 0 to 1.");
 }
 
+void bindNetwork(nb::module_& module) {
+  using skin::SkinNetwork;
+  nb::class_<SkinNetwork>(
+      module, "SkinNetwork",
+      "Colours to skins by a trained encoder-decoder, in daylight seen by CIE 1931: to compare with "
+      "SkinEstimator.")
+      .def("__init__", &constructNetwork, "space"_a = "Rec.709", "loss"_a = "spectral",
+           "The linear space of the pixels, and what the network was trained by: 'spectral' or 'rgb'.")
+      .def("estimate", &estimate<SkinNetwork>, "rgb"_a, "threads"_a = 2,
+           nb::sig("def estimate(self, rgb: numpy.typing.ArrayLike, threads: int = 2) -> "
+                   "numpy.typing.NDArray[numpy.float64]"),
+           "Maps, as SkinEstimator's.")
+      .def("colour", &colour<SkinNetwork>, "maps"_a, "threads"_a = 2,
+           nb::sig("def colour(self, maps: numpy.typing.ArrayLike, threads: int = 2) -> "
+                   "numpy.typing.NDArray[numpy.float64]"),
+           "Linear RGB of maps.")
+      .def("decode", &decoded, "skins"_a,
+           nb::sig("def decode(self, skins: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
+           "The decoder's reflectances at 380, 390, ..., 780 nm of rows of five parameters; by 'rgb' its linear "
+           "Rec.709.");
+}
+
 }  // namespace
 
 void bindSkin(nb::module_& module) {
@@ -243,6 +324,15 @@ void bindSkin(nb::module_& module) {
               "numpy.typing.NDArray[numpy.float64]"),
       "Reflectance at 380, 390, ..., 780 nm of skins: melanin, blood, thickness in micrometres, eumelanin's share,\n"
       "the share of haemoglobin without oxygen. `repair`: with the model's mean misfit to people repaired.");
+  module.def("skin_albedo_at", &albedoAt, "skins"_a, "wavelengths"_a,
+             nb::sig("def skin_albedo_at(skins: numpy.typing.ArrayLike, wavelengths: numpy.typing.ArrayLike) -> "
+                     "numpy.typing.NDArray[numpy.float64]"),
+             "The model's albedo of skins at any wavelengths from 380 to 780 nm, nothing repaired.");
+  module.def(
+      "skin_absorption", &absorption, "wavelengths"_a,
+      nb::sig("def skin_absorption(wavelengths: numpy.typing.ArrayLike) -> "
+              "dict[str, numpy.typing.NDArray[numpy.float64]]"),
+      "What absorbs in skin by name, in 1/cm, as if nothing else were there; blood_rest is bilirubin and carotene.");
   module.def("sample_skins", &sample, "count"_a, "seed"_a = 1, "Skins of people, a row of five parameters each.");
   module.def(
       "virtual_skins",
@@ -256,13 +346,13 @@ void bindSkin(nb::module_& module) {
            nb::sig("def __init__(self, illuminant: metamer._types.NamedSpectrum = 'D65', observer: "
                    "metamer._types.NamedObserver = 'CIE 1931 2', space: str = 'Rec.709', threads: int = 2) -> None"),
            "The light and the observer of the albedo's capture, and the linear space of its pixels.")
-      .def("estimate", &estimate, "rgb"_a, "threads"_a = 2,
+      .def("estimate", &estimate<SkinEstimator>, "rgb"_a, "threads"_a = 2,
            nb::sig("def estimate(self, rgb: numpy.typing.ArrayLike, threads: int = 2) -> "
                    "numpy.typing.NDArray[numpy.float64]"),
            "Maps: the last axis has melanin, blood, thickness, eumelanin, deoxyhaemoglobin, gain, and a residual in R, "
            "G\n"
            "and B.")
-      .def("colour", &colour, "maps"_a, "threads"_a = 2,
+      .def("colour", &colour<SkinEstimator>, "maps"_a, "threads"_a = 2,
            nb::sig("def colour(self, maps: numpy.typing.ArrayLike, threads: int = 2) -> "
                    "numpy.typing.NDArray[numpy.float64]"),
            "Linear RGB of maps.")
@@ -271,6 +361,7 @@ void bindSkin(nb::module_& module) {
            "Reflectances of maps at 380, 390, ..., 780 nm, which have their colours.")
       .def("identification", &identification, nb::sig("def identification(self) -> dict[str, float]"),
            "What colour tells of each parameter, as a share of the prior's variance.");
+  bindNetwork(module);
   bindEdits(module);
 }
 

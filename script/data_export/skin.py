@@ -87,6 +87,23 @@ def skin_prior_table() -> Table:
     )
 
 
+def skin_network_table() -> Table:
+    """Return the weights that script/train_skin.py found, as they are."""
+    content = (SOURCES / "skin_network.json").read_bytes()
+    return Table(
+        "skin_network.json",
+        "skin_network",
+        "weights of networks",
+        "none",
+        ["skin network"],
+        json.loads(content)["source"],
+        "Apache-2.0",
+        content,
+        None,
+        "Trained on draws of the model, not on measurements.",
+    )
+
+
 def skin_tables() -> list[Table]:
-    """Return the chromophores and the prior."""
-    return [haemoglobin_table(), pigment_table(), skin_prior_table()]
+    """Return the chromophores, the prior and the networks."""
+    return [haemoglobin_table(), pigment_table(), skin_prior_table(), skin_network_table()]

@@ -25,6 +25,7 @@ HAND_WRITTEN = {
     "sources/camera_fits.json",
     "sources/chromophore_fits.json",
     "sources/model_skins_100.csv",
+    "sources/skin_network.json",
     "sources/skin_prior.json",
 }
 QUANTITIES = {
@@ -37,8 +38,9 @@ QUANTITIES = {
     "pixels": "linear ACEScg",
     "chromophores": "molar extinction",
     "skin_prior": "distribution of parameters",
+    "skin_network": "weights of networks",
 }
-NO_SPECTRA = {"rgb_spaces", "pixels", "skin_prior"}
+NO_SPECTRA = {"rgb_spaces", "pixels", "skin_prior", "skin_network"}
 OBSERVERS = {
     "CIE 1931 2",
     "CIE 1964 10",

@@ -307,6 +307,18 @@ class Doors(Skin):
         header, _ = read(self.folder / "m.exr")
         self.assertEqual(header["compression"], OpenEXR.ZIP_COMPRESSION)
 
+    def test_networks_find_much_the_same(self):
+        """Within a deviation of people's; blood is hard to tell in dark skin."""
+        rgb = self.albedo([[LIGHT, DARK, (0.05, 0.1, 0.8), (0, 0, 0)]])
+        _, by_map = self.estimate()
+        for method in ("network", "network-rgb"):
+            _, maps = self.estimate("--method", method)
+            np.testing.assert_allclose(np.cbrt(maps["skin.melanin"][0, :2]), np.cbrt(by_map["skin.melanin"][0, :2]), atol=0.05)
+            np.testing.assert_allclose(maps["skin.blood"][0, 0] ** 0.25, by_map["skin.blood"][0, 0] ** 0.25, atol=0.04)
+            np.testing.assert_allclose(colours(self.edit()[1]), rgb, atol=1e-6)
+        self.assertFails("skin", "estimate", "a.exr", "-o", "n.exr", "--method", "network", "--illuminant", "A",
+                         says=["--method", "trained for"])
+
     def test_capture_options_and_cameras(self):
         rgb = self.albedo([[LIGHT, DARK]])
         _, day = self.estimate()

@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Skin: spectra from parameters, parameters from colours, edits."""
 
+import json
 import unittest
+from pathlib import Path
 
 import numpy as np
 
 import metamer
 from metamer import skin
+
+
+DATA = Path(__file__).resolve().parents[2] / "data"
 
 
 class Skin(unittest.TestCase):
@@ -64,6 +69,49 @@ class Skin(unittest.TestCase):
         told = self.estimator.identification()
         self.assertTrue(told["separates_blood_from_melanin"])
         self.assertGreater(told["melanin"], told["thickness"])
+
+    def test_any_wavelengths(self):
+        fine = np.arange(380, 781, 2)
+        np.testing.assert_allclose(skin.albedo_at(self.people, fine)[:, ::5], skin.albedo(self.people, repair=False), rtol=1e-9)
+        absorbing = skin.absorption(fine)
+        # Blood with oxygen has its maxima at 542 and 576 nm, of 1/cm as Prahl's table has them.
+        blood = absorbing["oxyhaemoglobin"]
+        self.assertEqual([int(fine[80 + np.argmax(blood[80:90])]), int(fine[90 + np.argmax(blood[90:110])])], [542, 576])
+        self.assertAlmostEqual(blood[(542 - 380) // 2], 285.4, delta=0.5)
+
+    def test_networks(self):
+        """The compiled network is the one that was trained: NumPy's reading of its weights gives the same."""
+        rgb = self.colours()
+        document = json.loads((DATA / "skin_network.json").read_text(encoding="utf-8"))
+        mean = rgb.mean(axis=1)
+        features = np.column_stack([(rgb[:, 0] - rgb[:, 1]) / mean, (rgb[:, 2] - rgb[:, 1]) / mean, np.log(mean)])
+
+        def run(layers, values):
+            for k, layer in enumerate(layers):
+                values = values @ np.array(layer["weights"]).T + layer["biases"]
+                values = np.tanh(values) if k + 1 < len(layers) else values
+            return values
+
+        for loss in ("spectral", "rgb"):
+            scale, own = document["coordinates"], document["networks"][loss]
+            inner = (features - document["features"]["mean"]) / document["features"]["deviation"]
+            found = run(own["encoder"], inner) * scale["deviation"] + scale["mean"]
+            network = skin.Network("Rec.709", loss)
+            maps = network.estimate(rgb)
+            # By their roots; the colours are single, and this test's Rec.709 is rounded.
+            np.testing.assert_allclose(np.cbrt(maps[:, 0]), found[:, 0].clip(0.0), atol=2e-3)
+            np.testing.assert_allclose(maps[:, 1] ** 0.25, found[:, 1], atol=2e-3)
+            np.testing.assert_allclose(network.colour(maps), rgb, rtol=1e-6, atol=1e-7)
+            inside = self.people.copy()
+            inside[:, 0], inside[:, 1] = np.cbrt(inside[:, 0]), inside[:, 1] ** 0.25
+            np.testing.assert_allclose(network.decode(self.people), run(own["decoder"], (inside - scale["mean"]) / scale["deviation"]),
+                                       rtol=1e-9, atol=1e-12)
+        decoded = skin.Network().decode(self.people)
+        truth = skin.albedo(self.people)
+        angles = np.arccos(np.sum(decoded * truth, 1) / np.linalg.norm(decoded, axis=1) / np.linalg.norm(truth, axis=1))
+        self.assertLess(np.degrees(angles).max(), 3)
+        with self.assertRaisesRegex(ValueError, "loss 'mse'"):
+            skin.Network(loss="mse")
 
     def test_refusals(self):
         with self.assertRaisesRegex(ValueError, "last axis must have 3"):

@@ -9,6 +9,7 @@
 #include "apply/frames.h"
 #include "apply/picture_clues.h"
 #include "metamer/skin/skin_estimator.h"
+#include "metamer/skin/skin_network.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
@@ -31,6 +32,7 @@ struct EstimateOptions {
   std::string layer;
   std::string compression;
   std::string json;
+  std::string method = "map";
   SkinCapture capture;
   std::int64_t mostPixels = std::int64_t{1} << 31;
   int threads = 0;
@@ -79,6 +81,10 @@ class Estimation {
   void begin(const fs::path& albedo, int threads) {
     AnyPicture picture(albedo, m_options.mostPixels);
     m_space = spaceOf(picture, layerOf(picture, albedo), albedo);
+    if (m_options.method != "map") {
+      beginNetwork();
+      return;
+    }
     m_estimator.emplace(m_library, skinView(m_capture, m_space->linear, m_library), threads);
     const skin::SkinIdentification told = m_estimator->identification();
     if (!told.separatesBloodFromMelanin) {
@@ -108,7 +114,11 @@ class Estimation {
     std::vector<float> rgb = picture.values(layer.part, channels);
     changeColours(rgb, m_space->decode);
     std::vector<skin::SkinPixel> pixels(rgb.size() / 3);
-    m_estimator->estimate(rgb, pixels, threads);
+    if (m_network) {
+      m_network->estimate(rgb, pixels, threads);
+    } else {
+      m_estimator->estimate(rgb, pixels, threads);
+    }
     const auto first = picture.spec(layer.part).nchannels - 3;
     picture.exchange(layer.part, channels, {kSkinChannels.begin(), kSkinChannels.end()});
     setSkinMapsHeader(picture, layer.part, header);
@@ -135,6 +145,16 @@ class Estimation {
   }
 
  private:
+  void beginNetwork() {
+    if (m_capture.text() != kUsualCapture.text()) {
+      throw InputError("--method", "network", m_capture.text(),
+                       "is not what it was trained for, " + kUsualCapture.text() + "; use --method map");
+    }
+    const bool isSpectral = m_options.method == "network";
+    m_network.emplace(m_library, m_space->linear,
+                      isSpectral ? skin::SkinNetwork::Loss::Spectral : skin::SkinNetwork::Loss::Rgb);
+  }
+
   ColourLayer layerOf(const AnyPicture& picture, const fs::path& file) const {
     if (hasSkinMaps(picture)) {
       throw InputError(file.string(), "channels", "skin", "are there already; give the albedo, or edit these maps");
@@ -192,14 +212,19 @@ class Estimation {
   }
 
   Json json() const {
-    const skin::SkinIdentification told = m_estimator->identification();
     Json mean;
     Json explained;
+    skin::SkinIdentification told;
+    if (m_estimator) {
+      told = m_estimator->identification();
+    }
     for (std::size_t k = 0; k < 5; ++k) {
       const std::string name = std::string(kSkinChannels[k]).substr(5);
       mean[name] =
           m_findings.skins > 0 ? Json(m_findings.sum[k] / static_cast<double>(m_findings.skins)) : Json(nullptr);
-      explained[name] = told.explained[k];
+      if (m_estimator) {
+        explained[name] = told.explained[k];
+      }
     }
     return {{"illuminant", m_capture.illuminant},
             {"observer", m_capture.observer},
@@ -210,7 +235,8 @@ class Estimation {
             {"black_or_no_number", m_findings.unusable},
             {"mean_of_skin", mean},
             {"explained_by_colour", explained},
-            {"tells_blood_from_melanin", told.separatesBloodFromMelanin}};
+            {"tells_blood_from_melanin", told.separatesBloodFromMelanin},
+            {"method", m_options.method}};
   }
 
   const EstimateOptions& m_options;
@@ -220,6 +246,7 @@ class Estimation {
   std::optional<PictureSpace> m_stated;
   std::optional<PictureSpace> m_space;
   std::optional<skin::SkinEstimator> m_estimator;
+  std::optional<skin::SkinNetwork> m_network;  ///< in its place
   mutable std::mutex m_mutex;
   std::set<std::string> m_notes;
   Findings m_findings;
@@ -252,6 +279,10 @@ void addSkinEstimate(CLI::App& skin) {
   command->add_option("ALBEDO", options->albedo, "Albedo, any format OIIO reads; frames: face.####.exr")->required();
   command->add_option("-o,--output", options->output, "EXR to write: the maps in place of the colours")->required();
   addSkinCapture(*command, options->capture, "D65, CIE 1931 2");
+  command
+      ->add_option("--method", options->method,
+                   "map: the most probable skin; network: a trained one's (by spectra), network-rgb (by RGB)")
+      ->check(CLI::IsMember({"map", "network", "network-rgb"}));
   command->add_option("--picture-space", options->pictureSpace,
                       "What the pixels are, where the file does not say: sRGB, ACEScg, \"sRGB - Texture\" ...");
   command->add_option("--layer", options->layer, "Layer that is the albedo, of an EXR with several");

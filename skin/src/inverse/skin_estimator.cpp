@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "colours/brightness.h"
 #include "colours/in_parallel.h"
 #include "colours/pixel_checks.h"
 #include "inverse/most_probable.h"
@@ -18,9 +19,6 @@ using Eigen::Vector3f;
 constexpr int kAlongChroma = 25;
 constexpr int kAlongBrightness = 21;
 constexpr int kStartKnot = 13;
-/// No skin is outside: beyond, colours are a gain times these.
-constexpr double kDarkest = 0.02;
-constexpr double kBrightest = 0.8;
 /// The table's chromaticities are those of skins of so many times the prior's deviations.
 constexpr double kWidening = 2;
 constexpr int kWideningDraws = 2000;
@@ -35,12 +33,6 @@ struct Place {
 /// The chromaticity and the brightness's logarithm of a colour of positive mean.
 Eigen::Array3d placeOf(const Vector3d& rgb, double mean) {
   return {(rgb[0] - rgb[1]) / mean, (rgb[2] - rgb[1]) / mean, std::log(mean)};
-}
-
-/// Whether a colour can be a skin's times a gain that a float holds. Written so that NaN cannot.
-bool canBeSkin(const Vector3d& rgb) {
-  constexpr double kMostLight = 1e37;
-  return rgb.allFinite() && rgb.mean() > 0 && rgb.mean() < kMostLight;
 }
 
 }  // namespace
@@ -114,7 +106,7 @@ struct SkinEstimator::State {
     Place result;
     const Eigen::Array3d most(kAlongChroma - 1, kAlongChroma - 1, kAlongBrightness - 1);
     result.at = ((placeOf(rgb, mean) - start) * scale).max(0).min(most);
-    result.gain = mean / std::clamp(mean, kDarkest, kBrightest);
+    result.gain = gainOf(mean);
     return result;
   }
 
@@ -189,7 +181,7 @@ SkinPixel SkinEstimator::estimateBySolving(const Vector3d& rgb) const {
   if (!canBeSkin(rgb)) {
     return m_state->colours.pixel(skinOf(m_state->colours.prior().mean), 0, given);
   }
-  const double gain = mean / std::clamp(mean, kDarkest, kBrightest);
+  const double gain = gainOf(mean);
   const SkinCoordinates found = m_state->mostProbable.of(rgb / gain, m_state->colours.prior().mean);
   return m_state->colours.pixel(skinOf(found), gain, given);
 }
