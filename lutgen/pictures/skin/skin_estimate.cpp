@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <cmath>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -47,14 +46,17 @@ struct Findings {
   std::array<double, 5> sum{};  ///< over skins
 
   void add(const std::vector<float>& rgb, const std::vector<skin::SkinPixel>& found) {
-    constexpr float kOfSize = 0.1F;
+    constexpr double kOfSize = 0.1;
     pixels += found.size();
     for (std::size_t i = 0; i < found.size(); ++i) {
       const skin::SkinPixel& pixel = found[i];
-      const auto size = [](const float* three) { return std::hypot(three[0], three[1], three[2]); };
+      const auto square = [](const float* three) {
+        const Eigen::Vector3d numbers = Eigen::Vector3f::Map(three).cast<double>();
+        return numbers.squaredNorm();
+      };
       if (pixel.gain == 0) {
         ++unusable;
-      } else if (size(pixel.residual.data()) <= kOfSize * size(&rgb[3 * i])) {
+      } else if (square(pixel.residual.data()) <= kOfSize * kOfSize * square(&rgb[3 * i])) {
         ++skins;
         for (std::size_t k = 0; k < 5; ++k) {
           sum[k] += static_cast<double>(pixel.skin[k]);
