@@ -22,7 +22,7 @@ endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(OpenColorIO
   REQUIRED_VARS OpenColorIO_LIBRARY OpenColorIO_INCLUDE_DIR VERSION_VAR OpenColorIO_VERSION
-  REASON_FAILURE_MESSAGE "${opencolorio_remedy}")
+  REASON_FAILURE_MESSAGE "${release_remedy}")
 
 if(OpenColorIO_FOUND AND NOT TARGET OpenColorIO::OpenColorIO)
   add_library(OpenColorIO::OpenColorIO SHARED IMPORTED)

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture.h"
 
-#include <OpenImageIO/strutil.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
+#include "space_names.h"
 
 namespace metamer::lutgen {
 
@@ -67,7 +66,7 @@ std::vector<float> Picture::rgba() const {
 }
 
 bool Picture::isSrgb() const {
-  return OIIO::Strutil::iequals(m_pixels.spec().get_string_attribute("oiio:ColorSpace"), "sRGB");
+  return spaceNamedInFile(m_pixels.spec().get_string_attribute("oiio:ColorSpace")) == "sRGB";
 }
 
 void decodeSrgb(std::span<float> rgba) {

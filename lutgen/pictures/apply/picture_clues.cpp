@@ -26,7 +26,11 @@ bool isSrgbFormat(const std::string& format) {
 
 std::string formatOf(const std::filesystem::path& output) {
   const auto format = OIIO::ImageOutput::create(output.string());
-  return format ? format->format_name() : "";
+  if (!format) {
+    OIIO::geterror();  // whoever writes says it; what is not fetched is printed at the end
+    return "";
+  }
+  return format->format_name();
 }
 
 std::array<float, 8> chromaticitiesOf(const spectral::RgbSpace& space) {

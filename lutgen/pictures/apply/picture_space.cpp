@@ -14,6 +14,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/text.h"
+#include "space_names.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -84,34 +85,6 @@ PictureSpace fromChromaticities(const std::array<float, 8>& xy, const std::strin
   return {space.name, space, {}, {}};
 }
 
-/// Names that files give to spaces (OpenImageIO's, the Color Interop Forum's), in lower case, and what they are here.
-const std::vector<std::pair<std::string, std::string>>& namesInFiles() {
-  static const std::vector<std::pair<std::string, std::string>> names = {
-      {"srgb", "sRGB"},
-      {"srgb_texture", "sRGB"},
-      {"srgb - texture", "sRGB"},
-      {"srgb_rec709_scene", "sRGB"},
-      {"srgb_rec709_display", "sRGB"},
-      {"rec709", "Rec.1886"},
-      {"g24_rec709_display", "Rec.1886"},
-      {"g22_rec709_scene", "Gamma 2.2"},
-      {"g24_rec709_scene", "Gamma 2.4"},
-      {"lin_srgb", "Rec.709"},
-      {"lin_rec709", "Rec.709"},
-      {"lin_rec709_srgb", "Rec.709"},
-      {"lin_rec709_scene", "Rec.709"},
-      {"lin_rec2020_scene", "Rec.2020"},
-      {"lin_p3d65_scene", "P3-D65"},
-      {"lin_ap1_scene", "ACEScg"},
-      {"lin_ap0_scene", "ACES2065-1"},
-      {"acescg", "ACEScg"},
-      {"aces2065_1", "ACES2065-1"},
-      {"aces2065-1", "ACES2065-1"},
-      {"acescct", "ACEScct"},
-  };
-  return names;
-}
-
 }  // namespace
 
 PictureSpace pictureSpaceNamed(const std::string& name, const std::string& field, const spectral::DataLibrary& library,
@@ -147,10 +120,8 @@ std::optional<PictureSpace> pictureSpaceOf(const SpaceClues& clues, const std::s
       return known("sRGB");
     }
   }
-  for (const auto& [inFile, name] : namesInFiles()) {
-    if (named == inFile) {
-      return known(name);
-    }
+  if (const std::string name = spaceNamedInFile(named); !name.empty()) {
+    return known(name);
   }
   if (const auto curve = named.rfind("gamma", 0) == 0 ? displayCurveNamed(named) : std::nullopt) {
     return displaySpace("Gamma " + spectral::numberText(*curve->gamma), *curve, library.colourSpace("Rec.709").linear);
