@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What leaves lutgen, and what may come between: devices, pipes, links, full disks, signals, --quiet."""
+"""What leaves lutgen, and what may come between: devices, pipes, links, full disks, --quiet; signals: test_signals.py."""
 
 import os
-import random
 import resource
 import signal
 import stat
@@ -21,7 +20,6 @@ output: {illuminant: A}
 scene: {kind: smooth}
 """
 STAGE = ["stage", "emitter", "led:620:18"]
-LONG = os.environ.get("METAMER_LONG") == "1"
 
 
 class Outputs(LutgenTest):
@@ -115,73 +113,14 @@ class Outputs(LutgenTest):
             self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
             self.assertLessEqual(len(run.stderr.encode()), 301)
 
-
-class Signals(LutgenTest):
-    def setUp(self):
-        super().setUp()
-        (self.folder / "r.yaml").write_text(RECIPE)
-        (self.folder / "s.yaml").write_text(RECIPE.replace("evening", "night").replace("illuminant: A", "illuminant: HP1"))
-        self.assertWorks("bake", "r.yaml", "-o", "old.ctf", "--size", "5")
-        self.commands = {
-            "bake": ["bake", "r.yaml", "-o", "a.ctf", "--size", "17"],
-            "config": ["config", "r.yaml", "s.yaml", "-o", "c.ocio", "--size", "9"],
-            "compare": ["compare", "r.yaml", "old.ctf", "--json", "a.json", "--junit", "a.xml", "--plot", "a.png"],
-            "stage": [*STAGE, "-o", "led.csv"],
-        }
-
-    def tree(self):
-        return {str(path.relative_to(self.folder)): path.read_bytes() if path.is_file() else None
-                for path in self.folder.rglob("*")}
-
-    def interrupted(self, name, number, delay):
-        """Ended by a signal after a while: what is there is what was, or what the whole command makes."""
-        process = subprocess.Popen([LUTGEN, *self.commands[name]], cwd=self.folder, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True)
-        time.sleep(delay)
-        process.send_signal(number)
-        said = process.communicate(timeout=300)[1]
-        return process.returncode, said
-
-    def test_nothing_is_left_behind(self):
-        whole, seconds = {}, {}
-        before = self.tree()
-        for name, arguments in self.commands.items():
-            start = time.monotonic()
-            self.assertEqual(lutgen(*arguments, folder=self.folder).returncode, 0)
-            seconds[name] = time.monotonic() - start
-            whole[name] = self.tree()
-            self.restore(before)
-        order = random.Random(7)
-        rounds = 50 if LONG else 3
-        for _ in range(rounds):
-            for name in self.commands:
-                number = order.choice([signal.SIGINT, signal.SIGTERM])
-                code, said = self.interrupted(name, number, order.uniform(0, seconds[name]))
-                now = self.tree()
-                with self.subTest(name, number=number, code=code, said=said):
-                    if code == 0:
-                        self.assertEqual(now.keys(), whole[name].keys())
-                    else:
-                        self.assertEqual(code, -number)
-                        if now != before:  # it came when the work was done
-                            self.assertIn("files that are complete", said)
-                            self.assertTrue(all(now[path] == whole[name].get(path, now[path]) for path in now))
-                        self.assertFalse([path for path in now if "partial" in path])
-                self.restore(before)
-
-    def test_sigkill_leaves_the_old_file_whole(self):
-        (self.folder / "a.ctf").write_text("old")
-        order = random.Random(8)
-        for _ in range(50 if LONG else 2):
-            code, _ = self.interrupted("bake", signal.SIGKILL, order.uniform(0, 0.3))
-            if code != 0:
-                self.assertEqual((self.folder / "a.ctf").read_text(), "old")
-            (self.folder / "a.ctf").write_text("old")
-
-    def restore(self, before):
-        for path, data in sorted(self.tree().items(), reverse=True):
-            if path not in before:
-                (self.folder / path).rmdir() if data is None else (self.folder / path).unlink()
+    def test_certificates_of_any_depth_and_size_are_refused_at_once(self):
+        """Nesting that would overrun the stack, and fields whose number squared is the time that they take."""
+        head = '{"metamer_certificate":1,"tool":{},"transform":{},"error":{"mean":1,"p99":1,"max":1},"x":'
+        (self.folder / "deep.json").write_text(head + "[" * 300000 + "]" * 300000 + "}")
+        self.assertFails("diff", "deep.json", "deep.json", says=["certificate", "nests too deep"])
+        fields = ",".join(f'"k{i}":{i}' for i in range(200000))
+        (self.folder / "many.json").write_text(head + "{" + fields + "}}")
+        self.assertFails("diff", "many.json", "many.json", says=["certificate", "more fields"])
 
 
 if __name__ == "__main__":

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <unordered_map>
 #include <utility>
 
-#include "metamer/ocio/certificate.h"
+#include "compare/certificate_parts.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/message_line.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
@@ -18,6 +19,12 @@ using spectral::InputError;
 using Json = nlohmann::ordered_json;
 
 constexpr int kDeepest = 16;
+/// Of the parser's reason, which quotes what it read.
+constexpr std::size_t kLongestReason = 150;
+/// Certificates nest five deep; a deeper text than this would only overrun the stack.
+constexpr int kDeepestNesting = 64;
+/// They have some hundred fields; a document that keeps their order takes the square of their number in time.
+constexpr std::size_t kMostFields = 10'000;
 constexpr std::size_t kShownOfHash = 8;
 constexpr std::size_t kLongestValue = 80;
 
@@ -68,25 +75,12 @@ std::vector<Field> fieldsOf(const Json& document, const std::string& part) {
   return fields;
 }
 
-const Field* find(const std::vector<Field>& fields, const std::string& path) {
-  const auto found = std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.path == path; });
-  return found == fields.end() ? nullptr : &*found;
-}
-
-void compareParts(const Json& a, const Json& b, const std::string& part, std::vector<CertificateChange>& changes) {
-  const std::vector<Field> before = fieldsOf(a, part);
-  const std::vector<Field> after = fieldsOf(b, part);
-  for (const Field& field : before) {
-    const Field* now = find(after, field.path);
-    if (now == nullptr || now->value != field.value) {
-      changes.push_back({part, field.path, field.value, now == nullptr ? "" : now->value, field.name});
-    }
+std::unordered_map<std::string, const Field*> byPath(const std::vector<Field>& fields) {
+  std::unordered_map<std::string, const Field*> places;
+  for (const Field& field : fields) {
+    places.emplace(field.path, &field);
   }
-  for (const Field& field : after) {
-    if (find(before, field.path) == nullptr) {
-      changes.push_back({part, field.path, "", field.value, field.name});
-    }
-  }
+  return places;
 }
 
 /// A hash by its first digits, a long text by its start, JSON's quotation marks taken off.
@@ -95,7 +89,7 @@ std::string shown(const std::string& value, bool isHash) {
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
     text = text.substr(1, text.size() - 2);
   }
-  return isHash ? text.substr(0, kShownOfHash) : spectral::shortened(text, kLongestValue);
+  return isHash ? spectral::messageLine(text.substr(0, kShownOfHash)) : spectral::shortened(text, kLongestValue);
 }
 
 bool endsWith(const std::string& text, const std::string& end) {
@@ -104,9 +98,40 @@ bool endsWith(const std::string& text, const std::string& end) {
 
 }  // namespace
 
+Json certificateJson(const std::string& text) {
+  std::size_t fields = 0;
+  return Json::parse(text, [&](int depth, Json::parse_event_t event, const Json&) {
+    fields += event == Json::parse_event_t::key ? 1 : 0;
+    if (depth > kDeepestNesting || fields > kMostFields) {
+      throw InputError("", "certificate", "",
+                       depth > kDeepestNesting ? "nests too deep for one of metamer's; bake the file again"
+                                               : "has more fields than any of metamer's; bake the file again");
+    }
+    return true;
+  });
+}
+
+void compareParts(const Json& a, const Json& b, const std::string& part, std::vector<CertificateChange>& changes) {
+  const std::vector<Field> before = fieldsOf(a, part);
+  const std::vector<Field> after = fieldsOf(b, part);
+  const auto then = byPath(before);
+  const auto now = byPath(after);
+  for (const Field& field : before) {
+    const auto found = now.find(field.path);
+    if (found == now.end() || found->second->value != field.value) {
+      changes.push_back({part, field.path, field.value, found == now.end() ? "" : found->second->value, field.name});
+    }
+  }
+  for (const Field& field : after) {
+    if (then.find(field.path) == then.end()) {
+      changes.push_back({part, field.path, "", field.value, field.name});
+    }
+  }
+}
+
 CertificateRecord certificateFrom(const std::string& text, const std::string& where) {
   try {
-    const Json json = Json::parse(text);
+    const Json json = certificateJson(text);
     if (!json.is_object() || !json.contains("metamer_certificate")) {
       throw InputError(where, "certificate", "", "is not one of metamer's; give the FILE.json that bake wrote");
     }
@@ -123,8 +148,9 @@ CertificateRecord certificateFrom(const std::string& text, const std::string& wh
     }
     return record;
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(where, "certificate", "",
-                     std::string("is not one of metamer's; bake the file again: ") + error.what());
+    throw InputError(
+        where, "certificate", "",
+        "is not one of metamer's; bake the file again: " + spectral::messageLine(error.what(), kLongestReason));
   }
 }
 
@@ -133,8 +159,8 @@ CertificateRecord readCertificate(const std::filesystem::path& file) {
 }
 
 std::vector<CertificateChange> changesBetween(const CertificateRecord& before, const CertificateRecord& after) {
-  const Json a = Json::parse(before.text);
-  const Json b = Json::parse(after.text);
+  const Json a = certificateJson(before.text);
+  const Json b = certificateJson(after.text);
   std::vector<std::string> parts = {"recipe", "inputs", "transform", "range", "error", "pixels", "diagnostics"};
   for (const Json* document : {&a, &b}) {
     for (const auto& [key, value] : document->items()) {
@@ -150,32 +176,13 @@ std::vector<CertificateChange> changesBetween(const CertificateRecord& before, c
   return changes;
 }
 
-std::vector<CertificateChange> staleParts(const CertificateRecord& certificate, const sip::Recipe& recipe,
-                                          const spectral::DataLibrary& library) {
-  Certificate now;
-  now.recipe = recipe;
-  now.inputs = certifiedInputs(recipe, library);
-  const Json a = Json::parse(certificate.text);
-  const Json b = Json::parse(now.json());
-  std::vector<CertificateChange> changes;
-  for (const char* part : {"inputs", "recipe", "tool"}) {
-    compareParts(a, b, part, changes);
-  }
-  // A name is not what a transform does.
-  changes.erase(
-      std::remove_if(changes.begin(), changes.end(),
-                     [](const CertificateChange& change) { return change.part == "recipe" && change.field == "name"; }),
-      changes.end());
-  return changes;
-}
-
 std::string CertificateChange::words() const {
   const bool isHash = endsWith(field, "sha256");
   if (part == "inputs" && isHash && !before.empty() && !after.empty()) {
     return "inputs: " + field.substr(0, field.rfind('.')) + ": the contents of " + name + " changed, sha256 " +
            shown(before, true) + "... is " + shown(after, true) + "... now";
   }
-  const std::string what = part + (field.empty() ? "" : ": " + field);
+  const std::string what = spectral::messageLine(part + (field.empty() ? "" : ": " + field));
   if (before.empty()) {
     return what + " is new: " + shown(after, isHash);
   }
