@@ -16,7 +16,7 @@ namespace {
 
 using spectral::InputError;
 
-constexpr const char* kSceneForms = "natural, smooth, skin[:strength] or dataset:SET";
+constexpr const char* kSceneForms = "natural, smooth, skin[:strength[:fade]] or dataset:SET";
 
 /// A name as it is; a file by its whole path, so that it is not looked for beside the recipe.
 std::string fromWorkingFolder(const std::string& nameOrFile, const std::vector<std::string>& names) {
@@ -64,7 +64,18 @@ std::vector<sip::RecipeFilter> filtersFrom(const std::vector<std::string>& texts
   return filters;
 }
 
-/// natural | smooth | skin[:strength] | dataset:SET
+/// A number of a scene within its range.
+double dial(const std::string& name, const std::string& text, double least, double most) {
+  const std::optional<double> value = number(text);
+  if (!value || !(*value >= least && *value <= most)) {
+    throw InputError("--scene", name, text,
+                     "must be a number from " + spectral::shortestNumber(least) + " to " +
+                         spectral::shortestNumber(most) + "; write " + kSceneForms);
+  }
+  return *value;
+}
+
+/// natural | smooth | skin[:strength[:fade]] | dataset:SET
 sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::string>& names) {
   const std::string form = std::string("write ") + kSceneForms;
   std::vector<std::string> parts(1);
@@ -81,8 +92,11 @@ sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::strin
   const bool isDataset = parts[0] == "dataset";
   const bool isSkin = parts[0] == "skin";
   const bool isKnown = isDataset || isSkin || parts[0] == "natural" || parts[0] == "smooth";
-  if (!isKnown || parts.size() > (isDataset || isSkin ? 2U : 1U) || (isDataset && parts.size() < 2) ||
-      parts.back().empty()) {
+  if (!isKnown ||
+      parts.size() > (isSkin      ? 3U
+                      : isDataset ? 2U
+                                  : 1U) ||
+      (isDataset && parts.size() < 2) || parts.back().empty()) {
     throw InputError("--scene", "scene", text, form);
   }
   sip::RecipeScene scene;
@@ -90,11 +104,10 @@ sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::strin
   if (isDataset) {
     scene.set = fromWorkingFolder(parts[1], names);
   } else if (isSkin && parts.size() > 1) {
-    const std::optional<double> strength = number(parts[1]);
-    if (!strength || !(*strength >= 0.0 && *strength <= 1.0)) {
-      throw InputError("--scene", "strength", parts[1], "must be a number from 0 to 1; " + form);
+    scene.strength = dial("strength", parts[1], 0.0, 1.0);
+    if (parts.size() > 2) {
+      scene.fade = dial("fade", parts[2], sip::kLeastSkinFade, sip::kLargestSkinFade);
     }
-    scene.strength = *strength;
   }
   return scene;
 }

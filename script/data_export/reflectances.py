@@ -8,7 +8,10 @@ from typing import Any
 
 from data_export.table import BSD, COLOUR, RAWTOACES, Columns, Table, crop, encode, hundredth, pairs, read_columns
 
-SOURCES = Path(__file__).resolve().parents[2] / "data" / "sources"
+DATA = Path(__file__).resolve().parents[2] / "data"
+SOURCES = DATA / "sources"
+# Made by the program: kept as it is.
+VIRTUAL_SKINS = DATA / "reflectances" / "virtual_skins.csv"
 RESIDUE = 1e-12  # negative reflectances smaller than this are rounding, not data
 
 
@@ -126,14 +129,13 @@ def reflectance_tables(colour: Any) -> list[Table]:
             {
                 "CES15": ces_columns["CES15"],
                 "CES18": ces_columns["CES18"],
-                "TCS13": tcs_columns["TCS13"],
                 "TCS15": tcs_columns["TCS15"],
             },
             f"{ces_source}; {tcs_source}; {COLOUR}",
             "Samples that their standards call skin: CES15 and CES18, over which TM-30 takes its "
-            "skin fidelity, and CRI test colours 13 (light yellowish pink, human complexion) and "
-            "15 (Japanese skin complexion). TCS13 is cut to 380-780 nm; nothing is interpolated. "
-            "Four samples, all light to medium: dark skin is not represented.",
+            "skin fidelity, and CRI test colour 15 (Japanese skin complexion). Not CRI test colour 13 "
+            "(light yellowish pink, human complexion): it has no haemoglobin, a paint of skin's colour. "
+            "Three samples, all light to medium: dark skin is not represented.",
         ),
         reflectance(
             "model_skins",
@@ -143,6 +145,15 @@ def reflectance_tables(colour: Any) -> list[Table]:
             "mean misfit applied; the prior was fitted to every other subject of Cooksey, Allen, "
             "Tsai 2017, Reference data set of human skin reflectance, J. Res. NIST 122:26",
             "Modelled, not measured: sources/model_skins_100.csv. All depths of skin.",
+            "Apache-2.0",
+        ),
+        reflectance(
+            "virtual_skins",
+            "virtual skins",
+            read_columns(VIRTUAL_SKINS),
+            "1000 draws of metamer::skin (seed 1) from data/skin_prior.json, the model's mean misfit "
+            "repaired; written by script/virtual_skins.py",
+            "Modelled, not measured. All depths of skin.",
             "Apache-2.0",
         ),
     ]

@@ -66,7 +66,8 @@ REFLECTANCE_COUNTS = {
     "cri": 15,
     "cqs": 15,
     "rawtoaces 190": 190,
-    "skin": 4,
+    "skin": 3,
+    "virtual skins": 1000,
 }
 
 

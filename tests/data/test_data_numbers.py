@@ -168,11 +168,19 @@ class Numbers(unittest.TestCase):
     def test_skin(self) -> None:
         """Skin samples are the ones of their sets, brighter in the red."""
         skin = find("reflectances", "skin")
-        self.assertEqual(list(skin), ["CES15", "CES18", "TCS13", "TCS15"])
+        self.assertEqual(list(skin), ["CES15", "CES18", "TCS15"])
         tm30, cri = find("reflectances", "tm30"), find("reflectances", "cri")
+
+        def haemoglobin(column: dict[float, float]) -> float:
+            """Return how far the middle of its W rises over its two dips."""
+            return (2 * column[560] - column[540] - column[580]) / column[560]
+
         for name, column in skin.items():
             self.assertEqual(column, (tm30 | cri)[name])
             self.assertGreater(column[650], 1.4 * column[550])
+            self.assertGreater(haemoglobin(column), -0.02, name)
+        # A paint of skin's colour.
+        self.assertLess(haemoglobin(cri["TCS13"]), -0.05)
 
     def test_spaces(self) -> None:
         """The spaces' primaries and whites, the three best known in numbers."""

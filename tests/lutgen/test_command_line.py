@@ -235,7 +235,7 @@ class Bake(LutgenTest):
         certificate = json.loads((self.folder / "a.cube.json").read_text())
         self.assertEqual([f["density"] for f in certificate["recipe"]["output"]["filters"]], [0.5, 1.0])
         self.assertEqual(certificate["transform"]["shaper"], "LogC3")
-        self.assertEqual(certificate["recipe"]["scene"], {"kind": "skin", "strength": 0.5})
+        self.assertEqual(certificate["recipe"]["scene"], {"kind": "skin", "strength": 0.5, "fade": 2.5})
         self.assertNotIn(str(self.folder), (self.folder / "a.cube.json").read_text())
 
     def test_bad_input_is_named(self):

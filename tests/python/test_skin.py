@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Skin: spectra from parameters, parameters from colours, edits."""
 
+import importlib.util
+import io
 import json
 import unittest
 from pathlib import Path
@@ -27,6 +29,18 @@ class Skin(unittest.TestCase):
         to_rgb = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560],
                            [0.0556434, -0.2040259, 1.0572252]])
         return xyz @ to_rgb.T
+
+    def test_the_table_of_virtual_skins_is_what_the_script_writes(self):
+        path = Path(__file__).resolve().parents[2] / "script" / "virtual_skins.py"
+        spec = importlib.util.spec_from_file_location("virtual_skins", path)
+        script = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(script)
+        written, kept = (np.genfromtxt(io.StringIO(text), delimiter=",", skip_header=1)
+                         for text in (script.text(), script.TABLE.read_text(encoding="utf-8")))
+        self.assertEqual(kept.shape, (41, script.COUNT + 1))
+        # A digit of the table: another machine's last bit may round the other way.
+        np.testing.assert_allclose(written, kept, atol=1.01 * 10.0 ** -script.DIGITS, rtol=0)
+        self.assertLess(np.abs(written - kept).mean(), 1e-7)
 
     def test_spectra(self):
         spectra = skin.albedo(self.people)

@@ -56,6 +56,7 @@ Json recipeJson(const sip::Recipe& recipe) {
   }
   if (recipe.scene.kind == sip::ReferenceScene::Kind::Skin) {
     scene["strength"] = recipe.scene.strength;
+    scene["fade"] = recipe.scene.fade;
   }
   return {{"metamer", 1},
           {"name", recipe.name},
@@ -252,8 +253,9 @@ std::vector<std::string> Certificate::lines() const {
                 "CIEDE2000 against the spectral engine: mean %.3f, p99 %.3f, max %.3f, stops %+d to %+d", error.mean,
                 error.p99, error.max, probes.lowestStop, probes.highestStop);
   std::array<char, 48> scene{};
-  std::snprintf(scene.data(), scene.size(), recipe.scene.kind == sip::ReferenceScene::Kind::Skin ? " %.4g" : "",
-                recipe.scene.strength);
+  std::snprintf(scene.data(), scene.size(),
+                recipe.scene.kind == sip::ReferenceScene::Kind::Skin ? " %.4g, fade %.4g" : "", recipe.scene.strength,
+                recipe.scene.fade);
   std::vector<std::string> result = {
       "metamer " + toolVersion() + ": " + side(recipe.input) + " -> " + side(recipe.output) + ", scene " +
           sip::nameOf(recipe.scene.kind) + scene.data(),
@@ -342,12 +344,17 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
     case sip::ReferenceScene::Kind::Natural:
     case sip::ReferenceScene::Kind::Skin: {
       // All sets of the library, by one hash of theirs.
+      const bool isSkin = recipe.scene.kind == sip::ReferenceScene::Kind::Skin;
       std::string hashes;
       for (const std::string& name : library.reflectanceSetNames()) {
+        if (!isSkin && name == "virtual skins") {
+          continue;
+        }
         hashes += library.provenance("reflectances", name).sha256 + " " + name + "\n";
       }
       spectral::Provenance provenance;
-      provenance.name = "all measured reflectances and model skins";
+      provenance.name = isSkin ? "all measured reflectances, model skins and virtual skins"
+                               : "all measured reflectances and model skins";
       provenance.sha256 = sha256(hashes);
       inputs.push_back({"scene.set", std::move(provenance)});
       break;

@@ -90,6 +90,7 @@ class RecipeReader {
     } else if (kind == kSkin) {
       scene.kind = sip::ReferenceScene::Kind::Skin;
       scene.strength = m_values.number("priorStrength", m_time);
+      scene.fade = m_values.number("skinFade", m_time);
     } else if (kind == kNatural || kind == kSmooth) {
       scene.kind = kind == kSmooth ? sip::ReferenceScene::Kind::Smooth : sip::ReferenceScene::Kind::Natural;
     } else {
@@ -173,6 +174,7 @@ class SpectralTransfer final : public Effect {
     values.enable("sceneSet", byMenus && scene == kDataset);
     values.enable("sceneFile", byMenus && scene == kDataset && values.menu("sceneSet", 0) == kFromFile);
     values.enable("priorStrength", byMenus && scene == kSkin);
+    values.enable("skinFade", byMenus && scene == kSkin);
   }
 
  private:

@@ -3,6 +3,7 @@
 
 #include "effects/effect.h"
 #include "host/parameter_makers.h"
+#include "metamer/sip/spectral_transform.h"
 
 namespace metamer::ofx {
 namespace {
@@ -67,17 +68,23 @@ std::vector<Parameter> spectralTransferParameters(const Catalogue& catalogue) {
 
   const std::string scene = "sceneGroup";
   parameters.push_back(makeGroup(scene, "Objects in the picture", false));
-  parameters.push_back(makeMenu("scene", "Reference scene", scene, {kSmooth, kDataset, kNatural, kSkin}, kNatural,
-                                "Which reflectance a colour is taken to have. Natural: smooth, and beyond that as "
-                                "measured surfaces and skins of the colour are. Skin: nearer to skins. Smooth: the "
-                                "smoothest that has it. Data set: measured ones, interpolated."));
+  parameters.push_back(
+      makeMenu("scene", "Reference scene", scene, {kSmooth, kDataset, kNatural, kSkin}, kNatural,
+               "Which reflectance a colour is taken to have. Natural: smooth, and beyond that as "
+               "measured surfaces and skins of the colour are. Skin: among skins' colours, as skins are. Smooth: the "
+               "smoothest that has it. Data set: measured ones, interpolated."));
   parameters.push_back(makeMenu("sceneSet", "Reflectances", scene, withFirst({kFromFile}, catalogue.reflectanceSets),
                                 "colorchecker", "Measured reflectances, for Data set."));
   parameters.push_back(
       makeFile("sceneFile", "Reflectance file", scene, "CSV of reflectances, where the menu says From file."));
   // Projects hold the strength under the name that it had first.
   parameters.push_back(makeNumber("priorStrength", "Skin strength", scene, 1.0, {0, 1}, {0, 1},
-                                  "Of Skin. 0: as Natural; 1: as near to measured and modelled skins as can be."));
+                                  "Of Skin. 0: as Natural; 1: as near to skins as can be."));
+  parameters.push_back(makeNumber("skinFade", "Skin fade", scene, sip::kDefaultSkinFade,
+                                  {sip::kLeastSkinFade, sip::kLargestSkinFade},
+                                  {sip::kLeastSkinFade, sip::kLargestSkinFade},
+                                  "Of Skin. How far beside skin's mean colour it reaches, in standard deviations of "
+                                  "skins. More finds odder skins, and takes more of what is none for skin."));
 
   const std::string colour = "colourGroup";
   parameters.push_back(makeGroup(colour, "Colour", false));

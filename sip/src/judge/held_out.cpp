@@ -110,7 +110,7 @@ std::optional<HeldOutSet> judge(const TransformSpec& spec, const std::string& na
 
 std::vector<HeldOutSet> heldOutErrors(const TransformSpec& spec, const spectral::DataLibrary& library,
                                       const ParallelFor& parallelFor) {
-  const std::vector<std::string> names = library.reflectanceSetNames();
+  const std::vector<std::string> names = judgedSetNames(library);
   std::vector<std::optional<HeldOutSet>> judged(names.size());
   parallelFor(static_cast<int>(names.size()), [&](int k) {
     const auto at = static_cast<std::size_t>(k);

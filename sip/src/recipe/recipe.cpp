@@ -73,15 +73,17 @@ RecipeScene readScene(const YamlSection& section) {
   }
   section.read("set", scene.set);
   section.read("strength", scene.strength, 0.0, 1.0);
+  section.read("fade", scene.fade, kLeastSkinFade, kLargestSkinFade);
   if (scene.kind == ReferenceScene::Kind::Dataset) {
     section.require("set", "is missing; name a reflectance set (see: lutgen list reflectances)");
   } else if (const YamlNode* set = section.find("set")) {
     throw section.error(*set, section.named("set"), set->text, "has a meaning with kind dataset alone; leave it out");
   }
-  const YamlNode* strength = section.find("strength");
-  if (strength != nullptr && scene.kind != ReferenceScene::Kind::Skin) {
-    throw section.error(*strength, section.named("strength"), strength->text,
-                        "has a meaning with kind skin alone; leave it out");
+  for (const char* const name : {"strength", "fade"}) {
+    const YamlNode* dial = section.find(name);
+    if (dial != nullptr && scene.kind != ReferenceScene::Kind::Skin) {
+      throw section.error(*dial, section.named(name), dial->text, "has a meaning with kind skin alone; leave it out");
+    }
   }
   return scene;
 }
@@ -177,7 +179,7 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
   output.read("adaptation", recipe.adaptation, 0.0, 1.0);
 
   if (const YamlNode* scene = top.find("scene")) {
-    recipe.scene = readScene(YamlSection(*scene, where, "scene", {"kind", "set", "strength"}));
+    recipe.scene = readScene(YamlSection(*scene, where, "scene", {"kind", "set", "strength", "fade"}));
   }
   if (const YamlNode* cat = top.find("cat")) {
     const std::string name = top.text(*cat, "cat");
@@ -206,7 +208,8 @@ std::string toYaml(const Recipe& recipe) {
   if (recipe.scene.kind == ReferenceScene::Kind::Dataset) {
     text += ", set: " + quoted(recipe.scene.set);
   } else if (recipe.scene.kind == ReferenceScene::Kind::Skin) {
-    text += ", strength: " + spectral::shortestNumber(recipe.scene.strength);
+    text += ", strength: " + spectral::shortestNumber(recipe.scene.strength) +
+            ", fade: " + spectral::shortestNumber(recipe.scene.fade);
   }
   text += "}\n";
   text += "cat: " + spectral::nameOf(recipe.cat) + "\n";
@@ -219,18 +222,22 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
 }
 
 TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library, const spectral::RgbSpace& space) {
-  TransformSpec spec{
-      .space = space,
-      .input = resolvePipeline(recipe, "input", recipe.input, library),
-      .output = resolvePipeline(recipe, "output", recipe.output, library),
-      .adaptation = recipe.adaptation,
-      .cat = recipe.cat,
-      .keepExposure = recipe.keepExposure,
-      .scene = {.kind = recipe.scene.kind, .samples = {}, .skins = {}, .strength = recipe.scene.strength},
-      .training = measuredSurfaces(library),
-      .standardObserver = library.observer(kStandardObserver),
-      .balanced = recipe.balanced,
-      .daylight = library.illuminant(kDaylight)};
+  TransformSpec spec{.space = space,
+                     .input = resolvePipeline(recipe, "input", recipe.input, library),
+                     .output = resolvePipeline(recipe, "output", recipe.output, library),
+                     .adaptation = recipe.adaptation,
+                     .cat = recipe.cat,
+                     .keepExposure = recipe.keepExposure,
+                     .scene = {.kind = recipe.scene.kind,
+                               .samples = {},
+                               .skins = {},
+                               .strength = recipe.scene.strength,
+                               .virtualSkins = {},
+                               .fade = recipe.scene.fade},
+                     .training = measuredSurfaces(library),
+                     .standardObserver = library.observer(kStandardObserver),
+                     .balanced = recipe.balanced,
+                     .daylight = library.illuminant(kDaylight)};
   switch (recipe.scene.kind) {
     case ReferenceScene::Kind::Smooth:
       break;
@@ -238,8 +245,10 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
       spec.scene.samples =
           lookUp(recipe, "scene", [&] { return onDomain(library.reflectances(recipe.scene.set, recipe.folder)); });
       break;
-    case ReferenceScene::Kind::Natural:
     case ReferenceScene::Kind::Skin:
+      spec.scene.virtualSkins = virtualSkins(library);
+      [[fallthrough]];
+    case ReferenceScene::Kind::Natural:
       spec.scene.samples = spec.training;
       spec.scene.skins = modelSkins(library);
       break;

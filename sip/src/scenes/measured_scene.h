@@ -7,6 +7,7 @@
 #include "scenes/measured_seeds.h"
 #include "scenes/node_bands.h"
 #include "scenes/sample_kernel.h"
+#include "scenes/skin_gaussian.h"
 #include "scenes/weighted_sums.h"
 #include "soft_bound/soft_bound_solver.h"
 
@@ -28,7 +29,9 @@ class MeasuredScene {
 
   /// @param solver  gives smooth spectra. Copied from, not kept.
   /// @param seeds   of the solver's weights; likewise
-  MeasuredScene(const SoftBoundSolver& solver, const MeasuredSeeds& seeds);
+  /// @param skin    where given, takes its share of P from the samples; of the same weights and places
+  MeasuredScene(const SoftBoundSolver& solver, const MeasuredSeeds& seeds,
+                const std::optional<SkinGaussian>& skin = std::nullopt);
   /// @param reflectances  kNodeCount x n
   /// @param noise         n variances, 0 or more, over the kernel's 1: how far a sample is smoothed away between its
   ///                      neighbours. Samples that are dark under this light (mean response below 1e-4) are left out.
@@ -45,7 +48,8 @@ class MeasuredScene {
   };
   Local local(const Eigen::Vector3d& response) const;
 
-  /// How much of each sample a colour takes, and how that changes: what slopes are summed from.
+  /// How much of each sample, and of the Gaussian's three spectra, a colour takes, and how that changes: what slopes
+  /// are summed from.
   struct Mixture {
     double mean;                             ///< n
     Eigen::Matrix<double, 2, 3> placeSlope;  ///< dq / dresponse
@@ -67,11 +71,16 @@ class MeasuredScene {
     Eigen::Vector2d place;  ///< q
   };
   Chromaticity chromaticityOf(const Eigen::Vector3d& response) const;
+  /// The kernel at a place: its value, or in three columns its derivatives too.
+  void weigh(const Eigen::Vector2d& place, Eigen::Ref<Eigen::VectorXd> values) const;
+  Eigen::MatrixX3d weighed(const Eigen::Vector2d& place) const;
   /// The samples' spectra less their smooth ones, at the bands, from sums of coefficients.
   BandVector atBands(const Eigen::Ref<const Eigen::VectorXd>& sums) const;
 
   Eigen::Matrix<double, 2, 3> m_differences;  ///< n q from a response
-  SampleKernel m_kernel;
+  SampleKernel m_kernel;  ///< of the samples, and where there is a Gaussian three rows more for its spectra
+  std::optional<SkinGaussian> m_skin;
+  Eigen::Index m_samples;
   WeightedSums m_coefficients;  ///< of the samples' kernels: nodes, then the response
   NodeBands m_bands;
   BandTriple m_smooth;  ///< smooth spectrum from a response, less what its nodes give

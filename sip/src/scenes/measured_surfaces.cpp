@@ -8,6 +8,7 @@ namespace metamer::sip {
 namespace {
 
 constexpr const char* kModelSkins = "model skins";
+constexpr const char* kVirtualSkins = "virtual skins";
 constexpr double kTwinRms = 0.02;
 
 }  // namespace
@@ -36,7 +37,7 @@ bool hasTwin(const std::vector<spectral::DomainSamples>& samples, const spectral
 std::vector<spectral::DomainSamples> measuredSurfaces(const spectral::DataLibrary& library) {
   std::vector<spectral::DomainSamples> surfaces;
   for (const std::string& name : library.reflectanceSetNames()) {
-    if (name == kModelSkins) {
+    if (name == kModelSkins || name == kVirtualSkins) {
       continue;
     }
     for (const spectral::DomainSamples& sample : onDomain(library.reflectances(name))) {
@@ -48,8 +49,18 @@ std::vector<spectral::DomainSamples> measuredSurfaces(const spectral::DataLibrar
   return surfaces;
 }
 
+std::vector<std::string> judgedSetNames(const spectral::DataLibrary& library) {
+  std::vector<std::string> names = library.reflectanceSetNames();
+  std::erase(names, kVirtualSkins);
+  return names;
+}
+
 std::vector<spectral::DomainSamples> modelSkins(const spectral::DataLibrary& library) {
   return onDomain(library.reflectances(kModelSkins));
+}
+
+std::vector<spectral::DomainSamples> virtualSkins(const spectral::DataLibrary& library) {
+  return onDomain(library.reflectances(kVirtualSkins));
 }
 
 }  // namespace metamer::sip

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "metamer/spectral/data_library.h"
@@ -16,7 +17,13 @@ bool hasTwin(const std::vector<spectral::DomainSamples>& samples, const spectral
 /// All measured reflectances of the library, in the order of its tables, less twins of earlier ones.
 std::vector<spectral::DomainSamples> measuredSurfaces(const spectral::DataLibrary& library);
 
-/// The library's modelled skins.
+/// Names of the sets to judge by: all but draws of virtual skins, of which there are as many as one wants.
+std::vector<std::string> judgedSetNames(const spectral::DataLibrary& library);
+
+/// The library's modelled skins, published with the model.
 std::vector<spectral::DomainSamples> modelSkins(const spectral::DataLibrary& library);
+
+/// Draws of metamer::skin, a thousand.
+std::vector<spectral::DomainSamples> virtualSkins(const spectral::DataLibrary& library);
 
 }  // namespace metamer::sip

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transform/recovery.h"
 
-#include <cmath>
+#include <optional>
 
 #include "metamer/spectral/input_error.h"
 #include "response/samples_on_bands.h"
@@ -15,10 +15,34 @@ namespace {
 /// Noise of a measured sample in the scene, over the kernel's 1, by cross-validation.
 constexpr double kSampleNoise = 0.2;
 constexpr double kSkinNoise = 0.1;
-/// The skin scene's skins are followed by this much more closely at strength 1.
-constexpr double kSkinSceneFactor = 0.1;
+/// What the skin scene's Gaussian counts for among skins at strength 1; the rest is the samples'. More folds
+/// chromaticities under sodium; so do steeper sides.
+constexpr double kSkinShare = 0.8;
+/// Fewer skins have no covariance.
+constexpr std::size_t kFewestSkins = 4;
 
 using Scene = std::variant<std::monostate, MeasuredScene, DatasetScene>;
+
+/// The Gaussian of a skin scene.
+std::optional<SkinGaussian> skinOf(const ReferenceScene& scene, const SoftBoundSolver& solver,
+                                   const MeasuredSeeds& seeds) {
+  if (scene.kind != ReferenceScene::Kind::Skin || scene.strength == 0.0) {
+    return std::nullopt;
+  }
+  return SkinGaussian(
+      seeds.differences, NodeBands(MeasuredScene::kNodeCount, solver.bandCount()).nodeWeights(solver.weights()),
+      samplesOnBands(scene.virtualSkins, MeasuredScene::kNodeCount), kSkinShare * scene.strength, scene.fade);
+}
+
+void checkSkin(const ReferenceScene& scene) {
+  if (!(scene.fade >= kLeastSkinFade && scene.fade <= kLargestSkinFade)) {
+    throw InputError("recipe", "scene.fade", std::to_string(scene.fade), "give a number from 0.5 to 4");
+  }
+  if (scene.virtualSkins.size() < kFewestSkins) {
+    throw InputError("recipe", "scene.virtualSkins", std::to_string(scene.virtualSkins.size()),
+                     "a scene of skin needs four or more");
+  }
+}
 
 Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
   if (scene.kind == ReferenceScene::Kind::Smooth) {
@@ -30,6 +54,9 @@ Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
   if (!(scene.strength >= 0.0 && scene.strength <= 1.0)) {
     throw InputError("recipe", "scene.strength", std::to_string(scene.strength), "give a number from 0 to 1");
   }
+  if (scene.kind == ReferenceScene::Kind::Skin) {
+    checkSkin(scene);
+  }
   if (scene.kind == ReferenceScene::Kind::Dataset) {
     return DatasetScene(solver, samplesOnBands(scene.samples, solver.bandCount()));
   }
@@ -37,11 +64,10 @@ Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
   const Eigen::MatrixXd skins = samplesOnBands(scene.skins, MeasuredScene::kNodeCount);
   Eigen::MatrixXd all(MeasuredScene::kNodeCount, samples.cols() + skins.cols());
   all << samples, skins;
-  const double strength = scene.kind == ReferenceScene::Kind::Skin ? scene.strength : 0.0;
   Eigen::VectorXd noise(all.cols());
-  noise << Eigen::VectorXd::Constant(samples.cols(), kSampleNoise),
-      Eigen::VectorXd::Constant(skins.cols(), kSkinNoise * std::pow(kSkinSceneFactor, strength));
-  return MeasuredScene(solver, all, noise);
+  noise << Eigen::VectorXd::Constant(samples.cols(), kSampleNoise), Eigen::VectorXd::Constant(skins.cols(), kSkinNoise);
+  const MeasuredSeeds seeds(solver.weights(), all, noise);
+  return MeasuredScene(solver, seeds, skinOf(scene, solver, seeds));
 }
 
 }  // namespace

@@ -89,12 +89,20 @@ TEST(SipRanges, Specifications) {
   EXPECT_REFUSED("density", with([&](auto& changed) { changed.output.filters = {{clear, -1e-9}}; }));
   EXPECT_REFUSED("density", with([&](auto& changed) { changed.output.filters = {{clear, kNotANumber}}; }));
   EXPECT_TAKEN(with([&](auto& changed) { changed.output.filters = {{clear, 0}}; }));
-  const auto skin = [&](double strength) {
+  const auto skin = [&](double strength, double fade = kDefaultSkinFade, std::size_t virtualSkins = 24) {
     return with([&](auto& changed) {
-      changed.scene = {ReferenceScene::Kind::Skin, samplesOf("colorchecker"), {}, strength};
+      const std::vector<DomainSamples> chart = samplesOf("colorchecker");
+      changed.scene = {ReferenceScene::Kind::Skin, chart, {}, strength, chart, fade};
+      changed.scene.virtualSkins.resize(virtualSkins);
     });
   };
   EXPECT_TAKEN(skin(0));
+  EXPECT_TAKEN(skin(1, kLeastSkinFade, 4));
+  EXPECT_TAKEN(skin(1, kLargestSkinFade));
+  EXPECT_REFUSED("scene.fade", skin(1, kLeastSkinFade - 1e-9));
+  EXPECT_REFUSED("scene.fade", skin(1, kLargestSkinFade + 1e-9));
+  EXPECT_REFUSED("scene.fade", skin(1, kNotANumber));
+  EXPECT_REFUSED("scene.virtualSkins", skin(1, kDefaultSkinFade, 3));
   EXPECT_REFUSED("scene.strength", skin(-1e-9));
   EXPECT_REFUSED("scene.strength", skin(1 + 1e-9));
   EXPECT_REFUSED("scene.set", with([](auto& changed) { changed.scene = {ReferenceScene::Kind::Natural, {}}; }));

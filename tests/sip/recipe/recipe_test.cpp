@@ -59,6 +59,7 @@ output:
 scene:
   kind: skin
   strength: 5e-1
+  fade: 1.5
 cat: cat16
 balanced: camera
 keep_exposure: true
@@ -80,6 +81,7 @@ keep_exposure: true
   EXPECT_EQ(recipe.adaptation, 0.25);
   EXPECT_EQ(recipe.scene.kind, ReferenceScene::Kind::Skin);
   EXPECT_EQ(recipe.scene.strength, 0.5);
+  EXPECT_EQ(recipe.scene.fade, 1.5);
   EXPECT_EQ(recipe.cat, spectral::ChromaticAdaptation::Cat16);
   EXPECT_EQ(recipe.balanced, Balance{.kind = Balance::Kind::Camera});
   EXPECT_TRUE(recipe.keepExposure);
@@ -126,15 +128,18 @@ TEST(RecipeTest, YamlReadsBackAsTheSameRecipe) {
   EXPECT_EQ(back.scene.kind, recipe.scene.kind);
   EXPECT_EQ(back.scene.set, recipe.scene.set);
   EXPECT_EQ(back.scene.strength, recipe.scene.strength);
+  EXPECT_EQ(back.scene.fade, recipe.scene.fade);
   EXPECT_EQ(back.cat, recipe.cat);
   EXPECT_EQ(back.balanced, recipe.balanced);
   EXPECT_EQ(back.keepExposure, recipe.keepExposure);
   EXPECT_EQ(toYaml(back), toYaml(recipe));
   for (const auto kind : {ReferenceScene::Kind::Natural, ReferenceScene::Kind::Smooth, ReferenceScene::Kind::Skin}) {
-    recipe.scene = {kind, "", kind == ReferenceScene::Kind::Skin ? 0.3 : 1.0};
+    recipe.scene = {kind, "", kind == ReferenceScene::Kind::Skin ? 0.3 : 1.0,
+                    kind == ReferenceScene::Kind::Skin ? 3.5 : kDefaultSkinFade};
     const Recipe other = parse(toYaml(recipe));
     EXPECT_EQ(other.scene.kind, kind);
     EXPECT_EQ(other.scene.strength, recipe.scene.strength);
+    EXPECT_EQ(other.scene.fade, recipe.scene.fade);
   }
 }
 
@@ -234,6 +239,10 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
        "r.yaml:4: scene.strength '0.5': has a meaning with kind skin alone; leave it out"},
       {"strength out of range", with("scene: {kind: skin, strength: 2}\n"),
        "r.yaml:4: scene.strength '2': must be a number from 0 to 1"},
+      {"fade for smooth", with("scene: {kind: smooth, fade: 2}\n"),
+       "r.yaml:4: scene.fade '2': has a meaning with kind skin alone; leave it out"},
+      {"fade out of range", with("scene: {kind: skin, fade: 9}\n"),
+       "r.yaml:4: scene.fade '9': must be a number from 0.5 to 4"},
       {"radius", with("scene: {kind: skin, radius: 0.1}\n"), "r.yaml:4: key 'scene.radius': unknown"},
       {"unknown cat", with("cat: cat61\n"), "r.yaml:4: cat 'cat61': must be vonkries, bradford, cat02 or cat16"},
       {"unknown balance", with("balanced: auto\n"),
@@ -286,7 +295,7 @@ TEST(RecipeTest, NumbersDoNotDependOnTheLocale) {
   const std::string text = toYaml(recipe);
   std::setlocale(LC_ALL, before.c_str());
   EXPECT_EQ(recipe.scene.strength, 0.5);
-  EXPECT_NE(text.find("strength: 0.5}"), std::string::npos);
+  EXPECT_NE(text.find("strength: 0.5, fade: 2.5}"), std::string::npos);
 }
 
 TEST_F(RecipeFileTest, FilesAreBesideTheRecipe) {
@@ -329,6 +338,8 @@ TEST(RecipeTest, ResolvesEveryName) {
   EXPECT_TRUE(spec.keepExposure);
   EXPECT_EQ(spec.scene.kind, ReferenceScene::Kind::Skin);
   EXPECT_EQ(spec.scene.strength, 0.5);
+  EXPECT_EQ(spec.scene.fade, kDefaultSkinFade);
+  EXPECT_EQ(spec.scene.virtualSkins.size(), 1000U);
   EXPECT_EQ(spec.scene.skins.size(), testLibrary().reflectances("model skins").samples.size());
   // All that was measured, less what two tables have of one paint.
   EXPECT_EQ(spec.training.size(), 356U);

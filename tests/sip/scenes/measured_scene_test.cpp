@@ -165,6 +165,7 @@ SceneError errorOfScene(TransformSpec spec, ReferenceScene::Kind kind, double st
   spec.adaptation = 1.0;
   spec.scene.kind = kind;
   spec.scene.strength = strength;
+  spec.scene.virtualSkins = samplesOf("virtual skins");
   const SpectralTransform transform(spec, kBands);
   const Eigen::Matrix3d xyz = spec.space.xyzFromRgb();
   const Vector3d white = spec.space.whiteXyz();

@@ -23,7 +23,8 @@ struct HeldOutSet {
                               ///< Hurlbert 2015), by least squares over the other sets
 };
 
-/// Every set of the library in turn. A recipe that does nothing, and a set that a scene has nothing beside, give none.
+/// Every set of the library in turn but virtual skins. A recipe that does nothing, and a set that a scene has nothing
+/// beside, give none.
 /// @param parallelFor  runs the sets
 std::vector<HeldOutSet> heldOutErrors(const TransformSpec& spec, const spectral::DataLibrary& library,
                                       const ParallelFor& parallelFor = inOrder);

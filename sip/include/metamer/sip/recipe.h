@@ -25,8 +25,9 @@ struct RecipePipeline {
 
 struct RecipeScene {
   ReferenceScene::Kind kind = ReferenceScene::Kind::Natural;
-  std::string set;        ///< Dataset: its reflectance set
-  double strength = 1.0;  ///< Skin: 0 = as Natural ... 1
+  std::string set;                 ///< Dataset: its reflectance set
+  double strength = 1.0;           ///< Skin: 0 = as Natural ... 1
+  double fade = kDefaultSkinFade;  ///< Skin: ReferenceScene::fade
 };
 
 /// The one description that lutgen, configs, the plugin and the validator share (docs/recipe.md). YAML:

@@ -17,18 +17,26 @@
 
 namespace metamer::sip {
 
+/// Of ReferenceScene::fade. Beyond the largest, charts lose more than a tenth of a CIEDE2000 to skin.
+inline constexpr double kDefaultSkinFade = 2.5;
+inline constexpr double kLeastSkinFade = 0.5;
+inline constexpr double kLargestSkinFade = 4.0;
+
 /// How a tristimulus gets its spectrum (course notes, section 5.4).
 struct ReferenceScene {
   enum class Kind {
     Natural,  ///< measured surfaces and skins: what they deviate from smooth is interpolated over chromaticity
-    Skin,     ///< the same, nearer to skins
+    Skin,     ///< the same, and among skins' chromaticities as virtual skins are
     Smooth,   ///< the smoothest spectrum
     Dataset,  ///< measured spectra, interpolated over triangles of chromaticities
   };
   Kind kind = Kind::Smooth;
-  std::vector<spectral::DomainSamples> samples;     ///< reflectances; empty for Smooth
-  std::vector<spectral::DomainSamples> skins = {};  ///< Natural, Skin: reflectances of skins
-  double strength = 1.0;                            ///< Skin: 0 = as Natural ... 1
+  std::vector<spectral::DomainSamples> samples;            ///< reflectances; empty for Smooth
+  std::vector<spectral::DomainSamples> skins = {};         ///< Natural, Skin: reflectances of skins
+  double strength = 1.0;                                   ///< Skin: 0 = as Natural ... 1
+  std::vector<spectral::DomainSamples> virtualSkins = {};  ///< Skin: what its Gaussian is of, at least 4
+  /// Skin: how far from the skins' mean chromaticity their Gaussian reaches, in their standard deviations.
+  double fade = kDefaultSkinFade;
 };
 
 /// What a message says of any other name.
