@@ -10,6 +10,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "metamer/stage/rgb_wall.h"
+#include "metamer/stage/skin_priority.h"
 #include "metamer/stage/wall_spectra.h"
 #include "spectrum_like.h"
 #include "stage.h"
@@ -78,9 +79,13 @@ WallCapture captureFromSpectra(const nb::sequence& emitters, nb::handle camera, 
 }
 
 WallSolution solve(const WallCapture& capture, const nb::object& heldPatch, const nb::object& patchWeights,
-                   double largestCondition) {
+                   double largestCondition, const WallCapture* skins, double skinWeight) {
   stage::WallOptions options;
   options.largestCondition = largestCondition;
+  if (skins != nullptr) {
+    options.skins = *skins;
+    options.skinWeight = skinWeight;
+  }
   const auto count = capture.target.cols();
   if (!heldPatch.is_none()) {
     const auto& names = capture.patchNames;
@@ -172,6 +177,9 @@ void bindSolution(nb::module_& module) {
       .def_prop_ro(
           "corrected", [](const WallSolution& self) { return newMatrix(self.corrected.transpose()); },
           "The same after Q.")
+      .def_prop_ro(
+          "corrected_skins", [](const WallSolution& self) { return newMatrix(self.correctedSkins.transpose()); },
+          "The skins after Q, a row each; none without skins.")
       .def_ro("wall_condition", &WallSolution::wallCondition)
       .def_ro("chart_condition", &WallSolution::chartCondition)
       .def_ro("Q_condition", &WallSolution::correctionCondition)
@@ -184,11 +192,16 @@ void bindSolution(nb::module_& module) {
 void bindWall(nb::module_& module) {
   bindCapture(module);
   bindSolution(module);
-  module.def("solve_wall", &solve, "capture"_a, nb::kw_only(), "held_patch"_a = nb::none(),
-             "patch_weights"_a = nb::none(), "largest_condition"_a = stage::kDefaultLargestCondition,
-             nb::sig("def solve_wall(capture: WallCapture, *, held_patch: int | str | None = None, patch_weights: "
-                     "numpy.typing.ArrayLike | None = None, largest_condition: float = 100.0) -> WallSolution"),
-             "M, Q, N and the black offset of an RGB wall. `held_patch` keeps its colour exactly.");
+  module.def(
+      "solve_wall", &solve, "capture"_a, nb::kw_only(), "held_patch"_a = nb::none(), "patch_weights"_a = nb::none(),
+      "largest_condition"_a = stage::kDefaultLargestCondition, "skins"_a.none() = nb::none(),
+      "skin_weight"_a = stage::kDefaultSkinWeight,
+      nb::sig("def solve_wall(capture: WallCapture, *, held_patch: int | str | None = None, patch_weights: "
+              "numpy.typing.ArrayLike | None = None, largest_condition: float = 100.0, skins: WallCapture | None = "
+              "None, skin_weight: float = 4.0) -> WallSolution"),
+      "M, Q, N and the black offset of an RGB wall. `held_patch` keeps its colour exactly. `skins`: the same wall and\n"
+      "place with skins for a chart (from_spectra(..., reflectances=\"virtual skins\")), each of which counts\n"
+      "`skin_weight` beside a patch's 1.");
 }
 
 }  // namespace metamer::python

@@ -192,6 +192,13 @@ class SelectTest(LutgenTest):
 
     def test_kept(self):
         ours = self.select("--targets", "A", "--emitters", *self.POOL, "--keep", self.POOL[0], self.POOL[3], "--most", 4)
+        faces = self.select("--targets", "A", "--emitters", *self.POOL, "--keep", self.POOL[0], self.POOL[3], "--most", 4,
+                            "--priority", "skin:20")
+        self.assertEqual([faces["virtual_skin"], ours["virtual_skin"]["weight"]], [{"count": 200, "weight": 20}, 0])
+        for plain, skin in zip(ours["best"], faces["best"], strict=True):
+            self.assertLessEqual(skin["skin_dE"]["mean"], plain["skin_dE"]["mean"] + 1e-9)
+        self.assertFails("stage", "select", "--json", "s.json", "--targets", "A", "--emitters", *self.POOL, "--method", "mim",
+                         "--priority", "skin", says=["--priority", "mrm alone"])
         self.assertEqual([best["count"] for best in ours["best"]], [2, 3, 4])
         self.assertTrue(all({0, 3} <= set(best["indices"]) for best in ours["best"]))
         self.assertFails("stage", "select", "--json", "s.json", "--targets", "A", "--emitters", *self.POOL, "--keep",

@@ -53,6 +53,20 @@ class MatchTest(LutgenTest):
         print(f"drives within {worst:.1e} of scipy's")
         self.assertLessEqual(worst, 1e-9)
 
+    def test_skin(self):
+        """Virtual skins are said of in every report, and count where they are asked for."""
+        arguments = ["--target", "A", "--emitters", *SETS["RGBW"]]
+        for method in ("sim", "mim"):
+            skin = self.match(*arguments, "--method", method)["virtual_skin"]
+            self.assertEqual((skin["count"], skin["weight"], skin["trade_off"]), (200, 0, []))
+        plain, faces = self.match(*arguments), self.match(*arguments, "--priority", "skin:20")
+        self.assertLess(faces["virtual_skin"]["dE"]["mean"], plain["virtual_skin"]["dE"]["mean"])
+        self.assertEqual([point["weight"] for point in plain["virtual_skin"]["trade_off"]], [0, 0.04, 0.2, 1, 4, 20])
+        self.assertAlmostEqual(plain["virtual_skin"]["trade_off"][5]["skin_dE"]["mean"],
+                               faces["virtual_skin"]["dE"]["mean"], places=9)
+        self.assertFails("stage", "match", "--json", "m.json", *arguments, "--method", "mim", "--priority", "skin",
+                         says=["--priority", "mrm alone"])
+
     def test_files(self):
         """Emitters from CSV files, one of two columns; drives in the files' own units."""
         names = [self.folder / f"{i}.csv" for i in range(3)]

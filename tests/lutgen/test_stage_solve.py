@@ -87,6 +87,51 @@ class AgainstNumpy(StageTest):
         self.assertLessEqual(worst, 1e-6)
 
 
+class Skin(StageTest):
+    """Virtual skins beside the chart, where the stage is given as spectra."""
+
+    def spectra(self, target, camera, *arguments):
+        red, green, blue = RGB_LEDS
+        (self.folder / "spectra.yaml").write_text(
+            f"metamer_stage: 1\nspectra: {{emitters: {{red: '{red}', green: '{green}', blue: '{blue}'}}, "
+            f"camera: {camera}, target: {target}}}\n")
+        self.printed = self.assertWorks("stage", "solve", self.folder / "spectra.yaml", "-o", self.folder / "s.json",
+                                        "--report", self.folder / "s.md", *arguments)
+        return json.loads((self.folder / "s.json").read_text())
+
+    def test_priority(self):
+        """Skin within 0.6 for at most 1.1 of the chart, by either camera."""
+        for camera in ("Canon EOS 5D Mark II", "Nikon D5100"):
+            for target in ("A", "D65", "LED-B1"):
+                best = self.spectra(target, camera)
+                self.assertEqual(best["virtual_skin"]["weight"], 0)
+                ours = self.spectra(target, camera, "--priority", "skin")
+                skin = ours["virtual_skin"]
+                self.assertEqual((skin["count"], skin["weight"]), (200, 4))
+                lost = ours["dE_after"]["mean"] - best["dE_after"]["mean"]
+                print(f"{camera}, {target}: skin {best['virtual_skin']['dE_after']['mean']:.2f} -> "
+                      f"{skin['dE_after']['mean']:.2f} +- {skin['dE_after']['deviation']:.2f}, chart + {lost:.2f}")
+                self.assertLessEqual(skin["dE_after"]["mean"], 0.6)
+                self.assertLessEqual(lost, 1.1)
+                curve = skin["trade_off"]
+                self.assertEqual([point["weight"] for point in curve], [0, 0.04, 0.2, 1, 4, 20])
+                # More weight, nearer skin and a farther chart: squares fall and rise, means follow.
+                self.assertEqual(sorted((point["skin_dE"]["mean"] for point in curve), reverse=True),
+                                 [point["skin_dE"]["mean"] for point in curve])
+                self.assertAlmostEqual(curve[0]["chart_dE"], best["dE_after"]["mean"], places=12)
+                self.assertEqual(curve[4]["skin_dE"], skin["dE_after"])
+        self.assertIn("200 virtual skins", self.printed)
+        self.assertIn("--priority skin:WEIGHT", self.printed)
+        self.assertIn("| **4** |", (self.folder / "s.md").read_text())
+
+    def test_refusals(self):
+        self.failing(["priority", "stage's spectra"], extra="q: {skin_priority: 4}\n")
+        stage = Stage().write(self.folder)
+        for priority, says in (("skin:x", "skin:WEIGHT"), ("faces", "skin:WEIGHT"), ("skin", "stage's spectra")):
+            self.assertFails("stage", "solve", stage, "-o", self.folder / "o.json", "--priority", priority, says=[says])
+        self.assertNotIn("virtual_skin", self.solve(Stage()))
+
+
 class Claims(StageTest):
     def test_corrections(self):
         """Q improves every target, is nearly nothing for the RGB LED, and the background keeps its colours."""

@@ -45,6 +45,17 @@ class Wall(unittest.TestCase):
         weights[:3] = 1
         np.testing.assert_allclose(stage.solve(shot, patch_weights=weights).corrected[:3], shot.target[:3], rtol=1e-4)
 
+    def test_skins_count_beside_the_chart(self):
+        shot = capture()
+        skins = stage.WallCapture.from_spectra(EMITTERS, camera="Canon EOS 5D Mark II", target="FL2", beta=shot.beta,
+                                               reflectances="virtual skins")
+        plain, nothing = stage.solve(shot), stage.solve(shot, skins=skins, skin_weight=0)
+        np.testing.assert_array_equal(nothing.Q, plain.Q)
+        self.assertEqual(len(plain.corrected_skins), 0)
+        found = stage.solve(shot, skins=skins)
+        away = [np.linalg.norm(one.corrected_skins - skins.target) for one in (nothing, found)]
+        self.assertLess(away[1], 0.7 * away[0])
+
     def test_refused(self):
         shot = capture()
         fields = dict(primaries=shot.primaries, charts=shot.charts, target=shot.target, environment_white=[1, 1, 1])

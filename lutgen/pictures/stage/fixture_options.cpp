@@ -27,6 +27,12 @@ Eigen::VectorXd spread(const std::vector<double>& values, std::size_t count, con
 
 }  // namespace
 
+void addPriority(CLI::App& command, std::string& priority) {
+  command.add_option("--priority", priority,
+                     "What counts beside the chart: skin[:WEIGHT], 200 virtual skins, each of that weight (4) beside a "
+                     "patch's 1; needs spectra");
+}
+
 void addFixtureLimits(CLI::App& command, FixtureLimits& limits) {
   command.add_option("--limits", limits.largest, "Largest drive: one for all, or one an emitter")->expected(1, 64);
   command.add_option("--power", limits.power, "Power at a drive of 1: one for all, or one an emitter")->expected(1, 64);

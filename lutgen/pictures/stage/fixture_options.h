@@ -17,6 +17,9 @@ struct FixtureLimits {
   double budget = 0;  ///< 0: none
 };
 
+/// --priority skin[:WEIGHT], read by stage::skinWeightFrom.
+void addPriority(CLI::App& command, std::string& priority);
+
 void addFixtureLimits(CLI::App& command, FixtureLimits& limits);
 /// @throws spectral::InputError where they are neither one nor as many as the emitters
 stage::DriveLimits limitsOf(const FixtureLimits& limits, std::size_t emitterCount);

@@ -4,6 +4,7 @@
 #include "metamer/spectral/formatted.h"
 #include "metamer/stage/chart_difference.h"
 #include "stage/chart_figure.h"
+#include "stage/skin_report.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -35,6 +36,12 @@ Json toJson(const stage::MatchOutcome& outcome) {
   for (std::size_t i = 0; i < differences.size(); ++i) {
     json["patches"].push_back({{"name", outcome.patches[i]}, {"dE", numberToJson(differences[i])}});
   }
+  if (outcome.skins) {
+    json["virtual_skin"] = {{"count", outcome.skins->count},
+                            {"weight", outcome.skins->weight},
+                            {"dE", toJson(outcome.skins->differences)},
+                            {"trade_off", toJson(outcome.skins->tradeOffs)}};
+  }
   json["excluded"] = Json::array();
   for (const stage::ExcludedPatch& patch : outcome.excluded) {
     json["excluded"].push_back({{"name", patch.name}, {"reason", patch.reason}});
@@ -52,6 +59,10 @@ std::string summaryOf(const stage::MatchOutcome& outcome) {
   const stage::DifferenceSummary summary = stage::summaryOf(differencesOf(outcome));
   text += spectral::formatted("residual %.6g, CIEDE2000 mean %.2f max %.2f\n", outcome.match.relativeResidual,
                               summary.mean, summary.max);
+  if (outcome.skins) {
+    text += std::to_string(outcome.skins->count) + " virtual skins: " + textOf(outcome.skins->differences) + "\n" +
+            curveOf(outcome.skins->tradeOffs, outcome.skins->weight);
+  }
   for (const stage::ExcludedPatch& patch : outcome.excluded) {
     text += "excluded: " + patch.name + ": " + patch.reason + "\n";
   }
@@ -78,6 +89,10 @@ std::string reportOf(const stage::MatchOutcome& outcome, const std::string& figu
   for (std::size_t i = 0; i < outcome.emitters.size(); ++i) {
     text += spectral::formatted("| %s | %.6g |\n", outcome.emitters[i].c_str(),
                                 outcome.match.drives[static_cast<Eigen::Index>(i)]);
+  }
+  if (outcome.skins) {
+    text += "\n" + std::to_string(outcome.skins->count) + " virtual skins: " + textOf(outcome.skins->differences) +
+            ".\n" + tableOf(outcome.skins->tradeOffs, outcome.skins->weight);
   }
   if (!figure.empty()) {
     text += "\n![Chart as squares in squares](" + figure + ")\n\n*Ground: the target. Inner square: the emitters.*\n";

@@ -8,6 +8,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/stage/capture_faults.h"
+#include "metamer/stage/skin_priority.h"
 #include "stage/chart_picture.h"
 #include "stage/fixture_options.h"
 #include "stage/match_answer.h"
@@ -44,12 +45,14 @@ struct MatchOptions {
   int samples = 200;
   std::uint64_t seed = 1;
   bool asCaptured = false;
+  std::string priority;
   FixtureLimits limits;
   std::string output;
 };
 
 stage::MatchRequest requestOf(const MatchOptions& options, const stage::DriveLimits& limits) {
-  return {options.method, options.weights, limits, "--charts"};
+  return {options.method, options.weights, limits, "--charts",
+          options.priority.empty() ? 0 : stage::skinWeightFrom(options.priority)};
 }
 
 /// Solves as the level and the limits ask, and says what they cost.
@@ -85,10 +88,12 @@ MatchAnswer matchSpectra(const MatchOptions& options, const stage::Fixture& fixt
                          const spectral::DataLibrary& library) {
   const spectral::Observer observer = library.observer(options.observer);
   const auto materials = library.reflectances(options.reflectances).samples;
+  const auto skins = stage::virtualSkins(library);
   const Eigen::Matrix3d xyzFromResponse = xyzFromResponseUnder(target, observer, library);
   const std::size_t count = fixture.names.size();
   MatchAnswer answer = answerOf(options, limitsOf(options.limits, count), count, [&](const stage::DriveLimits& limits) {
-    return stage::matchSpectra(requestOf(options, limits), fixture, target, observer, materials, xyzFromResponse);
+    return stage::matchSpectra(requestOf(options, limits), fixture, target, observer, materials, xyzFromResponse,
+                               skins);
   });
   answer.outcome.reflectances = options.reflectances;
   return answer;
@@ -262,6 +267,7 @@ void addStageMatch(CLI::App& stage) {
                    "Differences of mrm: absolute (the default), relative to the target's values, or perceptual, by "
                    "mean CIEDE2000")
       ->check(CLI::IsMember({"absolute", "relative", "perceptual"}));
+  addPriority(*command, options->priority);
   command->add_option("--colour-space", options->colourSpace,
                       "With --charts: what the camera's RGB is, for colour differences; ACEScg by default");
   command->add_option("--report", options->report, "Markdown to write, for people");

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "metamer/spectral/formatted.h"
+#include "stage/skin_report.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -141,6 +142,13 @@ Json toJson(const stage::StageResult& result) {
     json["skin"] = {
         {"patches", names}, {"dE_before", summary(result.skinBefore)}, {"dE_after", summary(result.skinAfter)}};
   }
+  if (result.skins) {
+    json["virtual_skin"] = {{"count", result.skins->count},
+                            {"weight", result.skins->weight},
+                            {"dE_before", toJson(result.skins->before)},
+                            {"dE_after", toJson(result.skins->after)},
+                            {"trade_off", toJson(result.skins->tradeOffs)}};
+  }
   json["excluded"] = Json::array();
   for (const stage::ExcludedPatch& patch : result.capture.excluded) {
     json["excluded"].push_back({{"name", patch.name}, {"reason", patch.reason}});
@@ -160,6 +168,11 @@ std::string summaryOf(const stage::StageResult& result) {
   if (!result.capture.skinPatches.empty()) {
     text += spectral::formatted("skin patches: M alone %.2f %.2f, M and Q %.2f %.2f\n", result.skinBefore.mean,
                                 result.skinBefore.max, result.skinAfter.mean, result.skinAfter.max);
+  }
+  if (result.skins) {
+    text += spectral::formatted("%d virtual skins: M alone %s; M and Q %s\n", result.skins->count,
+                                textOf(result.skins->before).c_str(), textOf(result.skins->after).c_str());
+    text += curveOf(result.skins->tradeOffs, result.skins->weight);
   }
   if (result.intervals) {
     text += intervalsInWords(result) + "\n";
@@ -194,6 +207,11 @@ std::string reportOf(const stage::StageResult& result, const std::string& figure
     text +=
         spectral::formatted("| skin, %zu | %.2f | %.2f | %.2f | %.2f |\n", result.capture.skinPatches.size(),
                             result.skinBefore.mean, result.skinBefore.max, result.skinAfter.mean, result.skinAfter.max);
+  }
+  if (result.skins) {
+    text += spectral::formatted("\n%d virtual skins: before %s; after %s.\n", result.skins->count,
+                                textOf(result.skins->before).c_str(), textOf(result.skins->after).c_str());
+    text += tableOf(result.skins->tradeOffs, result.skins->weight);
   }
   if (result.spectralSimilarity) {
     text += spectral::formatted("\nSpectral similarity index (SSI) of the wall's white to the target light: %.0f\n",

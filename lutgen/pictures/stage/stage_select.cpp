@@ -9,8 +9,10 @@
 #include "metamer/spectral/text.h"
 #include "metamer/stage/chart_difference.h"
 #include "metamer/stage/emitter_selection.h"
+#include "metamer/stage/skin_priority.h"
 #include "progress.h"
 #include "stage/fixture_options.h"
+#include "stage/skin_report.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
 
@@ -27,6 +29,7 @@ struct SelectOptions {
   std::vector<std::string> kept;
   std::string reflectances = "colorchecker";
   std::string method = "mrm";
+  std::string priority;
   int most = 0;
   bool progress = false;
   std::string output;
@@ -139,16 +142,27 @@ std::vector<double> differencesOf(const Case& one, const stage::Fixture& fixture
   return stage::chartDifferences(made, wanted, one.xyzFromResponse, one.curves.transpose() * one.target->power);
 }
 
+std::vector<spectral::DomainSamples> samplesOf(const std::vector<spectral::Spectrum>& spectra) {
+  std::vector<spectral::DomainSamples> samples;
+  samples.reserve(spectra.size());
+  for (const spectral::Spectrum& one : spectra) {
+    samples.push_back(one.onDomain());
+  }
+  return samples;
+}
+
 void select(const SelectOptions& options) {
   spectral::requireWritable(options.output);
   const auto library = spectral::DataLibrary::openDefault();
   const stage::Fixture fixture = stage::readFixture(options.emitters, library);
   const std::vector<Target> targets = targetsOf(options, library);
-  std::vector<spectral::DomainSamples> materials;
-  for (const spectral::Spectrum& sample : library.reflectances(options.reflectances).samples) {
-    materials.push_back(sample.onDomain());
-  }
+  const auto materials = samplesOf(library.reflectances(options.reflectances).samples);
+  const auto skins = samplesOf(stage::virtualSkins(library));
   const stage::MatchMethod method = stage::matchMethodFromName(options.method);
+  const double skinWeight = options.priority.empty() ? 0 : stage::skinWeightFrom(options.priority);
+  if (skinWeight > 0 && method != stage::MatchMethod::MetamericReflectance) {
+    throw InputError("--priority", "skin", options.method, "has a meaning with method mrm alone; leave one out");
+  }
   std::vector<Case> cases;
   for (const Target& target : targets) {
     for (const std::string& name : options.observers) {
@@ -161,6 +175,11 @@ void select(const SelectOptions& options) {
         system = stage::illuminantSystem(fixture.columns, target.power, curves);
       } else {
         system = stage::reflectanceSystem(fixture.columns, target.power, curves, materials);
+        if (skinWeight > 0) {
+          system = stage::together(
+              system, stage::condensed(stage::reflectanceSystem(fixture.columns, target.power, curves, skins)),
+              skinWeight);
+        }
       }
       cases.push_back({{target.name + ", " + observer.name, std::move(system)},
                        &target,
@@ -192,12 +211,18 @@ void select(const SelectOptions& options) {
   json["best"] = Json::array();
   for (const stage::EmitterChoice& choice : curve) {
     stage::DifferenceSummary overall;
+    std::vector<double> ofSkin;
     Json perCase = Json::array();
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const auto summary = stage::summaryOf(differencesOf(cases[i], fixture, choice, materials));
       overall.mean += summary.mean / static_cast<double>(cases.size());
       overall.max = std::max(overall.max, summary.max);
-      perCase.push_back({{"residual", choice.caseResiduals[i]}, {"dE_mean", summary.mean}, {"dE_max", summary.max}});
+      const auto skin = differencesOf(cases[i], fixture, choice, skins);
+      ofSkin.insert(ofSkin.end(), skin.begin(), skin.end());
+      perCase.push_back({{"residual", choice.caseResiduals[i]},
+                         {"dE_mean", summary.mean},
+                         {"dE_max", summary.max},
+                         {"skin_dE", toJson(stage::skinDifferencesOf(skin))}});
     }
     Json names = Json::array();
     std::string listed;
@@ -205,15 +230,19 @@ void select(const SelectOptions& options) {
       names.push_back(fixture.names[static_cast<std::size_t>(emitter)]);
       listed += (listed.empty() ? "" : ", ") + fixture.names[static_cast<std::size_t>(emitter)];
     }
+    const stage::SkinDifferences skin = stage::skinDifferencesOf(ofSkin);
     json["best"].push_back({{"count", choice.emitters.size()},
                             {"emitters", names},
                             {"indices", choice.emitters},
                             {"error", choice.error},
                             {"dE", {{"mean", overall.mean}, {"max", overall.max}}},
+                            {"skin_dE", toJson(skin)},
                             {"cases", perCase}});
-    std::cout << spectral::formatted("%2zu  error %.5f  CIEDE2000 mean %5.2f max %6.2f  %s\n", choice.emitters.size(),
-                                     choice.error, overall.mean, overall.max, listed.c_str());
+    std::cout << spectral::formatted("%2zu  error %.5f  CIEDE2000 mean %5.2f max %6.2f  skin %5.2f  %s\n",
+                                     choice.emitters.size(), choice.error, overall.mean, overall.max, skin.mean,
+                                     listed.c_str());
   }
+  json["virtual_skin"] = {{"count", skins.size()}, {"weight", skinWeight}};
   json["notes"] = fixture.notes;
   writeJson(options.output, json);
 }
@@ -234,6 +263,7 @@ void addStageSelect(CLI::App& stage) {
   command->add_option("--reflectances", options->reflectances, "Materials: SET or FILE; colorchecker by default");
   command->add_option("--method", options->method, "sim, mim or mrm, as of stage match; mrm by default")
       ->check(CLI::IsMember({"sim", "mim", "mrm"}, CLI::ignore_case));
+  addPriority(*command, options->priority);
   command->add_option("--keep", options->kept, "Emitters that every choice holds, by name")->expected(1, 16);
   command->add_option("--most", options->most, "Largest number of emitters; all by default")->check(CLI::Range(1, 16));
   command->add_flag("--progress", options->progress, "Show progress even where stderr is no terminal");

@@ -24,6 +24,7 @@ struct SolveOptions {
   std::string base;
   std::string checkPictures;
   stage::SolveChoices choices;
+  std::string priority;
 };
 
 ocio::StageMatrices matricesOf(const stage::StageResult& result) {
@@ -53,7 +54,10 @@ void solve(const SolveOptions& options) {
     spectral::requireWritable(file);
   }
   const auto library = spectral::DataLibrary::openDefault();
-  const stage::StageDescription description = stage::readStage(options.stage);
+  stage::StageDescription description = stage::readStage(options.stage);
+  if (!options.priority.empty()) {
+    description.skinPriority = stage::skinWeightFrom(options.priority);
+  }
   const stage::StageResult result =
       stage::solveStage(description, readCapture(description, library, options.checkPictures), options.choices);
   if (!options.config.empty()) {
@@ -92,6 +96,7 @@ void addStageSolve(CLI::App& stage) {
                    "Draws of the captures' noise for the 95 % intervals: 20 to 100000, or 0 for none; 500 by default")
       ->check(samplesCheck);
   command->add_option("--seed", options->choices.seed, "Of those draws; 1 by default");
+  addPriority(*command, options->priority);
   command->add_option("--luts", options->luts,
                       "PREFIX of transforms to write: PREFIX_out_of_frustum, _in_frustum and _post_correction, each "
                       "as .spimtx, .clf and .ctf");

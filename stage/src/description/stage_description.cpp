@@ -7,6 +7,7 @@
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/yaml_section.h"
 #include "metamer/stage/chart_grid.h"
+#include "metamer/stage/skin_priority.h"
 
 namespace metamer::stage {
 namespace {
@@ -256,11 +257,12 @@ StageDescription parseStage(const std::string& text, const std::string& where, c
     stage.blackLevel = reader.colour(top, *black, "black_level");
   }
   if (const YamlNode* q = top.find("q")) {
-    const YamlSection section =
-        reader.section(*q, "q", {"preserve_white", "white_patch", "skin_patches", "skin_weight", "max_condition"});
+    const YamlSection section = reader.section(
+        *q, "q", {"preserve_white", "white_patch", "skin_patches", "skin_weight", "skin_priority", "max_condition"});
     section.read("preserve_white", stage.preserveWhite);
     section.read("white_patch", stage.whitePatch);
     section.read("skin_weight", stage.skinWeight, 0, 1e6);
+    section.read("skin_priority", stage.skinPriority, 0, kLargestSkinWeight);
     if (section.find("max_condition") != nullptr) {
       double largest = kDefaultLargestCondition;
       section.read("max_condition", largest, 1, 1e12);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/stage/emitter_match.h"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 
 #include "metamer/spectral/argument_checks.h"
@@ -98,6 +100,28 @@ MatchSystem chartSystem(const std::vector<Eigen::Matrix3Xd>& charts, const Eigen
     makeRelative(system);
   }
   return system;
+}
+
+MatchSystem together(const MatchSystem& first, const MatchSystem& second, double weight) {
+  spectral::requireAsMany("emitters", second.matrix.cols(), "the first system's", first.matrix.cols());
+  spectral::requireWithin("weight", weight, 0, std::numeric_limits<double>::max());
+  MatchSystem both{Eigen::MatrixXd(first.matrix.rows() + second.matrix.rows(), first.matrix.cols()),
+                   Eigen::VectorXd(first.target.size() + second.target.size())};
+  both.matrix << first.matrix, std::sqrt(weight) * second.matrix;
+  both.target << first.target, std::sqrt(weight) * second.target;
+  return both;
+}
+
+MatchSystem condensed(const MatchSystem& system) {
+  const Eigen::Index emitters = system.matrix.cols();
+  if (system.matrix.rows() <= emitters + 1) {
+    return system;
+  }
+  Eigen::MatrixXd both(system.matrix.rows(), emitters + 1);
+  both << system.matrix, system.target;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(both);
+  const Eigen::MatrixXd triangle = factors.matrixQR().topRows(emitters + 1).triangularView<Eigen::Upper>();
+  return {triangle.leftCols(emitters), triangle.col(emitters)};
 }
 
 EmitterMatch solveMatch(const MatchSystem& system, const DriveLimits& limits) {

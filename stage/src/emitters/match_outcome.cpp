@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_similarity_index.h"
 #include "metamer/stage/chart_difference.h"
@@ -66,6 +67,74 @@ MatchSystem systemOf(MatchMethod method, const MatchRequest& request, const Fixt
   return reflectanceSystem(fixture.columns, target, curves, materials.samples, weightsOf(request));
 }
 
+/// A light to match by spectra, for an observer.
+struct SpectralTask {
+  const MatchRequest& request;
+  MatchMethod method;
+  const Fixture& fixture;
+  spectral::DomainSamples light;
+  ObserverCurves curves;
+  Materials chart;
+  Materials skins;
+  Eigen::Matrix3d xyzFromResponse;
+  Eigen::Vector3d white;
+
+  MatchSystem system(const Materials& materials) const {
+    return systemOf(method, request, fixture, light, curves, materials);
+  }
+
+  /// Drives, with each skin of a weight beside the chart's patches.
+  EmitterMatch solved(double skinWeight) const {
+    const bool hasSkins = skinWeight > 0 && !skins.samples.empty();
+    if (!isPerceptual(method, request)) {
+      const MatchSystem charted = system(chart);
+      return solveMatch(hasSkins ? together(charted, system(skins), skinWeight) : charted, request.limits);
+    }
+    SeenResponses seen{xyzFromResponse, white / white[1]};
+    MatchSystem all = system(chart);
+    if (hasSkins) {
+      seen.patchWeights = Eigen::VectorXd::Constant(
+          all.target.size() / 3 + static_cast<Eigen::Index>(skins.samples.size()), skinWeight);
+      seen.patchWeights.head(all.target.size() / 3).setOnes();
+      all = together(all, system(skins), 1);
+    }
+    const auto illuminant = solveMatch(illuminantSystem(fixture.columns, light, curves), request.limits);
+    return solvePerceptualMatch(all, seen, {illuminant.drives}, request.limits);
+  }
+
+  std::vector<double> differences(const Materials& materials, const Eigen::VectorXd& drives) const {
+    return chartDifferences(chartUnder(fixture.columns * drives, curves, materials),
+                            chartUnder(light, curves, materials), xyzFromResponse, white);
+  }
+
+  MatchSkins skinsOf(const EmitterMatch& match) const {
+    MatchSkins result{static_cast<int>(skins.samples.size()),
+                      request.skinWeight,
+                      skinDifferencesOf(differences(skins, match.drives)),
+                      {}};
+    // By what is seen each weight takes a second or so: where skin is asked about, it is worth it.
+    if (method == MatchMethod::MetamericReflectance && (!isPerceptual(method, request) || request.skinWeight > 0)) {
+      for (const double weight : skinTradeOffWeights(request.skinWeight)) {
+        const Eigen::VectorXd drives = weight == request.skinWeight ? match.drives : solved(weight).drives;
+        result.tradeOffs.push_back(
+            {weight, summaryOf(differences(chart, drives)).mean, skinDifferencesOf(differences(skins, drives))});
+      }
+    }
+    return result;
+  }
+};
+
+void checkSkinWeight(const MatchRequest& request, MatchMethod method, bool hasSpectra) {
+  spectral::requireWithin("skin weight", request.skinWeight, 0, kLargestSkinWeight);
+  if (request.skinWeight > 0 && method != MatchMethod::MetamericReflectance) {
+    throw InputError("--priority", "skin", request.method, "has a meaning with method mrm alone; leave one out");
+  }
+  if (request.skinWeight > 0 && !hasSpectra) {
+    throw InputError("--priority", "skin", "",
+                     "needs the emitters' spectra: a chart alone does not tell what skin does");
+  }
+}
+
 }  // namespace
 
 std::vector<double> differencesOf(const MatchOutcome& outcome) {
@@ -85,9 +154,10 @@ void addReachNotes(MatchOutcome& outcome) {
 
 MatchOutcome matchSpectra(const MatchRequest& request, const Fixture& fixture, const spectral::Spectrum& target,
                           const spectral::Observer& observer, const std::vector<spectral::Spectrum>& materials,
-                          const Eigen::Matrix3d& xyzFromResponse) {
+                          const Eigen::Matrix3d& xyzFromResponse, const std::vector<spectral::Spectrum>& skins) {
   checkWeights(request);
-  const Materials charted = materialsOf(materials);
+  const MatchMethod method = matchMethodFromName(request.method);
+  checkSkinWeight(request, method, true);
   const ObserverCurves curves = observer.onDomain();
   const spectral::DomainSamples light = target.onDomain();
   MatchOutcome outcome;
@@ -97,21 +167,19 @@ MatchOutcome matchSpectra(const MatchRequest& request, const Fixture& fixture, c
   outcome.notes = fixture.notes;
   outcome.xyzFromResponse = xyzFromResponse;
   outcome.white = curves.transpose() * light;
-  const MatchMethod method = matchMethodFromName(request.method);
-  const MatchSystem system = systemOf(method, request, fixture, light, curves, charted);
-  if (isPerceptual(method, request)) {
-    const auto illuminant = solveMatch(illuminantSystem(fixture.columns, light, curves), request.limits);
-    const Eigen::Vector3d white = outcome.white / outcome.white[1];
-    outcome.match = solvePerceptualMatch(system, {outcome.xyzFromResponse, white}, {illuminant.drives}, request.limits);
-  } else {
-    outcome.match = solveMatch(system, request.limits);
+  const SpectralTask task{
+      request,         method,       fixture, light, curves, materialsOf(materials), materialsOf(skins),
+      xyzFromResponse, outcome.white};
+  outcome.match = task.solved(request.skinWeight);
+  if (!skins.empty()) {
+    outcome.skins = task.skinsOf(outcome.match);
   }
   const spectral::DomainSamples mixed = fixture.columns * outcome.match.drives;
-  outcome.patches = charted.names;
-  outcome.wanted = chartUnder(light, curves, charted);
-  outcome.made = chartUnder(mixed, curves, charted);
+  outcome.patches = task.chart.names;
+  outcome.wanted = chartUnder(light, curves, task.chart);
+  outcome.made = chartUnder(mixed, curves, task.chart);
   for (Eigen::Index k = 0; k < fixture.columns.cols(); ++k) {
-    outcome.emitterCharts.push_back(chartUnder(fixture.columns.col(k), curves, charted));
+    outcome.emitterCharts.push_back(chartUnder(fixture.columns.col(k), curves, task.chart));
   }
   if (mixed.maxCoeff() > 0) {
     outcome.spectralSimilarity = spectral::spectralSimilarityIndex(mixedLight(mixed), target);
@@ -126,6 +194,7 @@ MatchOutcome matchCharts(const MatchRequest& request, std::vector<ChartTable> em
   if (method == MatchMethod::Spectral) {
     throw InputError(request.where, "method", request.method, "needs spectra; charts do for mim and mrm");
   }
+  checkSkinWeight(request, method, false);
   MatchOutcome outcome;
   emitterCharts.push_back(target);
   auto aligned = alignCharts(emitterCharts, std::nullopt);

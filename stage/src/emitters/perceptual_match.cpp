@@ -39,6 +39,12 @@ class SeenChart {
     for (Index i = 0; i < m_wanted.cols(); ++i) {
       m_wanted.col(i) = labOf(xyzOf(system.target.segment<3>(3 * i)));
     }
+    m_shares = Eigen::ArrayXd::Constant(m_wanted.cols(), 1.0);
+    if (seen.patchWeights.size() != 0) {
+      spectral::requireAsMany("patch weights", seen.patchWeights.size(), "the patches", m_wanted.cols());
+      m_shares = seen.patchWeights.array();
+    }
+    m_shares /= m_shares.sum();
   }
 
   Matrix3Xd differences(const VectorXd& drives) const {
@@ -50,9 +56,10 @@ class SeenChart {
     return differences;
   }
 
-  /// Mean CIEDE2000; with a rounding r, of sqrt(CIEDE2000^2 + r^2).
+  /// Weighted mean CIEDE2000; with a rounding r, of sqrt(CIEDE2000^2 + r^2).
   double mean(const VectorXd& drives, double rounding = 0) const {
-    return (differences(drives).colwise().squaredNorm().array() + rounding * rounding).sqrt().mean();
+    const Eigen::ArrayXd squares = differences(drives).colwise().squaredNorm().transpose().array();
+    return ((squares + rounding * rounding).sqrt() * m_shares).sum();
   }
 
   /// The least-squares problem whose gradient at these drives is that of mean(): differences, linear in the drives,
@@ -69,7 +76,7 @@ class SeenChart {
         slopes.col(k) = (difference(i, xyz + step) - difference(i, xyz - step)) / (2 * step[k]);
       }
       const MatrixXd rows = slopes * m_seen.xyzFromResponse * m_system.matrix.middleRows<3>(3 * i);
-      const double weight = std::pow(now.squaredNorm() + rounding * rounding, -0.25);
+      const double weight = std::sqrt(m_shares[i]) * std::pow(now.squaredNorm() + rounding * rounding, -0.25);
       linear.matrix.middleRows<3>(3 * i) = weight * rows;
       linear.target.segment<3>(3 * i) = weight * (rows * drives - now);
     }
@@ -86,7 +93,8 @@ class SeenChart {
   const MatchSystem& m_system;
   const SeenResponses& m_seen;
   Vector3d m_white;
-  Matrix3Xd m_wanted;  ///< Lab
+  Matrix3Xd m_wanted;       ///< Lab
+  Eigen::ArrayXd m_shares;  ///< of each patch in the mean
 };
 
 /// Down to a minimum of the mean from some drives: every step is within the limits and lowers the objective.

@@ -9,6 +9,7 @@
 #include "metamer/spectral/text.h"
 #include "metamer/stage/emitter_model.h"
 #include "metamer/stage/patch_names.h"
+#include "metamer/stage/skin_priority.h"
 #include "metamer/stage/stage_geometry.h"
 #include "metamer/stage/wall_spectra.h"
 
@@ -83,6 +84,8 @@ void readSpectra(const StageDescription& description, const spectral::DataLibrar
   capture.wall = captureOf(spectra);
   capture.wall.beta = beta;
   capture.wall.blackLevel = black;
+  spectra.reflectances = virtualSkins(library);
+  capture.skins = captureOf(spectra);
 
   capture.xyzFromCamera = xyzFromResponse(target, camera);
   capture.cameraWhite = capture.wall.environmentWhite;

@@ -8,6 +8,7 @@
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_similarity_index.h"
+#include "metamer/spectral/text.h"
 #include "metamer/stage/capture_faults.h"
 #include "metamer/stage/fixture.h"
 
@@ -42,6 +43,12 @@ WallOptions optionsOf(const StageDescription& description, const StageCapture& c
   options.patchWeights = Eigen::VectorXd::Ones(capture.wall.target.cols());
   for (const int patch : capture.skinPatches) {
     options.patchWeights[patch] = description.skinWeight;
+  }
+  options.skins = capture.skins;
+  options.skinWeight = description.skinPriority;
+  if (options.skinWeight > 0 && !options.skins) {
+    throw InputError("", "q.skin_priority", spectral::shortestNumber(options.skinWeight),
+                     "needs the stage's spectra (key 'spectra'): a chart alone does not tell what skin does");
   }
   if (!(options.patchWeights.maxCoeff() > 0)) {
     throw InputError("", "q.skin_weight", "0", "leaves no patch with a weight");
@@ -129,6 +136,28 @@ void addIntervals(const StageDescription& description, const SolveChoices& choic
   }
 }
 
+/// Of skins, as of the chart.
+StageSkins skinsOf(const StageResult& result, WallOptions options) {
+  const Eigen::Matrix3Xd& target = options.skins->target;
+  const StageCapture& capture = result.capture;
+  const auto differences = [&](const Eigen::Matrix3Xd& skins) {
+    return skinDifferencesOf(chartDifferences(skins, target, capture.xyzFromCamera, result.whiteRgb));
+  };
+  StageSkins skins;
+  skins.count = static_cast<int>(target.cols());
+  skins.weight = options.skinWeight;
+  skins.before = differences(result.exposure * result.solution.predictedSkins);
+  skins.after = differences(result.solution.correctedSkins);
+  for (const double weight : skinTradeOffWeights(options.skinWeight)) {
+    options.skinWeight = weight;
+    const WallSolution solution = solveWall(capture.wall, options);
+    const auto chart =
+        chartDifferences(solution.corrected, capture.wall.target, capture.xyzFromCamera, result.whiteRgb);
+    skins.tradeOffs.push_back({weight, summaryOf(chart).mean, differences(solution.correctedSkins)});
+  }
+  return skins;
+}
+
 /// What the wall cannot do, and why.
 void addReachNotes(StageResult& result) {
   const WallSolution& solution = result.solution;
@@ -205,6 +234,9 @@ StageResult solveStage(const StageDescription& description, StageCapture capture
   result.after = summaryOf(result.differencesAfter);
   result.skinBefore = summaryOf(result.differencesBefore, result.capture.skinPatches);
   result.skinAfter = summaryOf(result.differencesAfter, result.capture.skinPatches);
+  if (walls.skins) {
+    result.skins = skinsOf(result, walls);
+  }
   result.notes = result.capture.notes;
   addIntervals(description, choices, walls, result);
   addReachNotes(result);

@@ -54,6 +54,13 @@ void check(const WallCapture& capture, const WallOptions& options) {
     spectral::requireAsMany("patch weights", options.patchWeights.size(), "the target's patches", patches);
     spectral::requireWithin("patch weight", options.patchWeights.minCoeff(), 0, std::numeric_limits<double>::max());
   }
+  spectral::requireWithin("skin weight", options.skinWeight, 0, std::numeric_limits<double>::max());
+  if (options.skins) {
+    for (const Matrix3Xd& chart : options.skins->charts) {
+      spectral::requireAsMany("skins under a channel", chart.cols(), "the target's skins",
+                              options.skins->target.cols());
+    }
+  }
   const double strongest = capture.cameraFromWall.cwiseAbs().maxCoeff();
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d primary = capture.cameraFromWall.col(static_cast<Eigen::Index>(k));
@@ -86,13 +93,24 @@ void check(const WallCapture& capture, const WallOptions& options) {
   }
 }
 
-/// argmin |Q P - T| with weights and one patch held; the minimiser nearest to the identity.
-Matrix3d solveCorrection(const Matrix3Xd& predicted, const Matrix3Xd& target, const WallOptions& options) {
-  const Eigen::Index patches = predicted.cols();
-  Eigen::VectorXd roots = Eigen::VectorXd::Ones(patches);
-  if (options.patchWeights.size() != 0) {
-    roots = options.patchWeights.cwiseSqrt();
+/// P: a chart in the wall's light.
+Matrix3Xd predictedOf(const WallCapture& capture, const Vector3d& drive, double beta) {
+  Matrix3Xd predicted = Matrix3Xd::Zero(3, capture.target.cols());
+  for (std::size_t k = 0; k < 3; ++k) {
+    predicted += drive[static_cast<Eigen::Index>(k)] * capture.charts[k];
   }
+  return predicted * beta;
+}
+
+/// Square roots of the weights of patches.
+Eigen::VectorXd rootsOf(Eigen::Index patches, const WallOptions& options) {
+  return options.patchWeights.size() != 0 ? Eigen::VectorXd(options.patchWeights.cwiseSqrt())
+                                          : Eigen::VectorXd::Ones(patches);
+}
+
+/// argmin |Q P - T| with weights and one patch held; the minimiser nearest to the identity.
+Matrix3d solveCorrection(const Matrix3Xd& predicted, const Matrix3Xd& target, const Eigen::VectorXd& roots,
+                         const WallOptions& options) {
   Eigen::MatrixX3d rows = (predicted * roots.asDiagonal()).transpose();
   Eigen::MatrixX3d wanted = ((target - predicted) * roots.asDiagonal()).transpose();
   if (options.heldPatch < 0) {
@@ -141,11 +159,7 @@ WallSolution solveWall(const WallCapture& capture, const WallOptions& options) {
   solution.wallFromContent = capture.cameraFromWall.inverse();
   solution.environmentDriveAsked = solution.wallFromContent * capture.environmentWhite;
   solution.environmentDrive = solution.environmentDriveAsked.cwiseMax(0.0);
-  solution.predicted = Matrix3Xd::Zero(3, capture.target.cols());
-  for (std::size_t k = 0; k < 3; ++k) {
-    solution.predicted += solution.environmentDrive[static_cast<Eigen::Index>(k)] * capture.charts[k];
-  }
-  solution.predicted *= capture.beta;
+  solution.predicted = predictedOf(capture, solution.environmentDrive, capture.beta);
   if (!(solution.predicted.norm() > 0)) {
     throw InputError("", "charts", "", "the predicted chart is black; check the charts against the environment");
   }
@@ -160,8 +174,27 @@ WallSolution solveWall(const WallCapture& capture, const WallOptions& options) {
   solution.chartCondition = condition(sizes);
   solution.chartRank = static_cast<int>((sizes.array() > 1e-7 * sizes[0]).count());
 
-  solution.correctedFromCamera = solveCorrection(solution.predicted, capture.target, options);
+  const Eigen::Index patches = capture.target.cols();
+  Matrix3Xd predicted = solution.predicted;
+  Matrix3Xd target = capture.target;
+  Eigen::VectorXd roots = rootsOf(patches, options);
+  if (options.skins) {
+    solution.predictedSkins = predictedOf(*options.skins, solution.environmentDrive, capture.beta);
+    if (options.skinWeight > 0) {
+      const Eigen::Index all = patches + solution.predictedSkins.cols();
+      predicted.conservativeResize(Eigen::NoChange, all);
+      target.conservativeResize(Eigen::NoChange, all);
+      roots.conservativeResize(all);
+      predicted.rightCols(all - patches) = solution.predictedSkins;
+      target.rightCols(all - patches) = options.skins->target;
+      roots.tail(all - patches).setConstant(std::sqrt(options.skinWeight));
+    }
+  }
+  solution.correctedFromCamera = solveCorrection(predicted, target, roots, options);
   solution.corrected = solution.correctedFromCamera * solution.predicted;
+  if (options.skins) {
+    solution.correctedSkins = solution.correctedFromCamera * solution.predictedSkins;
+  }
 
   const Eigen::JacobiSVD<Matrix3d> correction(solution.correctedFromCamera, Eigen::ComputeFullU | Eigen::ComputeFullV);
   solution.correctionCondition = condition(correction.singularValues());

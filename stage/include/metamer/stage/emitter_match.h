@@ -58,6 +58,14 @@ MatchSystem reflectanceSystem(const EmitterColumns& emitters, const spectral::Do
 MatchSystem chartSystem(const std::vector<Eigen::Matrix3Xd>& charts, const Eigen::Matrix3Xd& target,
                         MatchWeights weights = MatchWeights::Absolute);
 
+/// Rows of two systems of the same emitters, the second's weighted.
+/// @param weight  of the second's squares, not negative
+MatchSystem together(const MatchSystem& first, const MatchSystem& second, double weight);
+
+/// The same in as many rows as there are emitters, and one: |matrix * drives - target| is the same for all drives. For
+/// many materials.
+MatchSystem condensed(const MatchSystem& system);
+
 struct EmitterMatch {
   Eigen::VectorXd drives;         ///< in the emitters' own units, never below 0
   double residualNorm = 0;        ///< |matrix * drives - target|
@@ -74,8 +82,9 @@ EmitterMatch solveMatch(const MatchSystem& system, const DriveLimits& limits = {
 
 /// What an observer's responses look like.
 struct SeenResponses {
-  Eigen::Matrix3d xyzFromResponse;  ///< any scale
-  Eigen::Vector3d white;            ///< the response to what counts as white (L* = 100), in the system's scale
+  Eigen::Matrix3d xyzFromResponse;    ///< any scale
+  Eigen::Vector3d white;              ///< the response to what counts as white (L* = 100), in the system's scale
+  Eigen::VectorXd patchWeights = {};  ///< in the mean, one a patch, above 0; empty: 1
 };
 
 /// MRM by what is seen: the least mean CIEDE2000 over the patches, where squared tristimulus differences let a shift of
@@ -86,8 +95,8 @@ struct SeenResponses {
 /// `residualNorm`, `relativeResidual`, `rank` and `condition` are of the system, as of solveMatch.
 /// @param system   three rows a patch, with absolute weights
 /// @param starts   other drives to set out from, such as MIM's; those beyond the limits are left out
-/// @throws spectral::InputError as solveMatch, and where white has no luminance, rows are not three a patch, or a start
-///         has not a drive for each emitter
+/// @throws spectral::InputError as solveMatch, and where white has no luminance, rows are not three a patch, weights
+///         are not one a patch, or a start has not a drive for each emitter
 EmitterMatch solvePerceptualMatch(const MatchSystem& system, const SeenResponses& seen,
                                   const std::vector<Eigen::VectorXd>& starts, const DriveLimits& limits = {});
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct WallOptions {
   int heldPatch = -1;            ///< patch whose colour Q holds exactly (white); -1: none
   Eigen::VectorXd patchWeights;  ///< weight of each patch in Q's sum of squares, not negative; empty: 1
   double largestCondition = kDefaultLargestCondition;  ///< 1 or more
+  /// The same wall and place with skins in place of the chart, which Q then counts too; their names are not looked at.
+  std::optional<WallCapture> skins = std::nullopt;
+  double skinWeight = 0;  ///< of each skin in Q's sum of squares, not negative
 };
 
 /// What bounding N at one condition number of Q costs and buys.
@@ -46,6 +50,8 @@ struct WallSolution {
   Eigen::Vector3d environmentDriveAsked;  ///< M w_avg
   Eigen::Matrix3Xd predicted;             ///< P
   Eigen::Matrix3Xd corrected;             ///< Q P
+  Eigen::Matrix3Xd predictedSkins;        ///< P of the skins; empty without them
+  Eigen::Matrix3Xd correctedSkins;        ///< Q P of them
   double wallCondition = 0;               ///< of [SL]
   double chartCondition = 0;              ///< of P
   double correctionCondition = 0;         ///< of Q; infinite at rank one
@@ -60,7 +66,7 @@ struct WallSolution {
 /// The wall cannot show negative light: a component of M w below 0 counts as 0 in P. Where the patches do not fix Q
 /// (fewer than three independent colours), Q is the minimiser nearest to the identity. Where Q's condition number is
 /// above `largestCondition` (a target light near one wavelength makes Q nearly rank one), Q's small singular values are
-/// raised to the largest over that number before it is inverted for N.
+/// raised to the largest over that number before it is inverted for N. Skins that count nothing change nothing.
 /// @throws spectral::InputError: a dead or collinear primary, a dead chart channel, an environment without light,
 ///         a black level above the wall's signal, no patches, a held patch without light, charts, names or weights that
 ///         are not as many as the target's patches, an option out of its range

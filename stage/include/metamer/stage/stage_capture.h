@@ -34,6 +34,7 @@ struct StageCapture {
   bool whiteIsFromTarget = false;               ///< w_avg is the white patch's, over its reflectance
   std::optional<ChartExpectation> expectation;  ///< of a photographed chart whose patches are known
   std::vector<int> skinPatches;
+  std::optional<WallCapture> skins;  ///< virtual skins in place of the chart, where spectra are known
   std::vector<ExcludedPatch> excluded;
   std::vector<std::string> notes;  ///< what a user should know about the input
 };

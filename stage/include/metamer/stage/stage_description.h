@@ -71,7 +71,8 @@ struct StageDescription {
   bool preserveWhite = false;
   std::string whitePatch;
   std::vector<std::string> skinPatches;
-  double skinWeight = 1;
+  double skinWeight = 1;                   ///< of the chart's skin patches
+  double skinPriority = 0;                 ///< of each virtual skin beside a patch's 1 (skin_priority.h)
   std::optional<double> largestCondition;  ///< of Q in N's inverse; without it chosen from the captures' noise
   std::optional<CaptureNoise> noise;       ///< of the captures; without it estimated from the charts
   std::optional<double> saturation;

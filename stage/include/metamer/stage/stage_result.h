@@ -7,6 +7,7 @@
 
 #include "metamer/stage/chart_difference.h"
 #include "metamer/stage/rgb_wall.h"
+#include "metamer/stage/skin_priority.h"
 #include "metamer/stage/stage_capture.h"
 #include "metamer/stage/wall_intervals.h"
 
@@ -27,6 +28,14 @@ struct NoiseSource {
   std::string words;  ///< "stated", "estimated from the charts", "assumed"
 };
 
+/// What a solved wall does to virtual skins.
+struct StageSkins {
+  int count = 0;
+  double weight = 0;  ///< that Q was solved with
+  SkinDifferences before, after;
+  std::vector<SkinTradeOff> tradeOffs;
+};
+
 /// A solved wall with what a report says of it.
 struct StageResult {
   std::string name;
@@ -38,6 +47,7 @@ struct StageResult {
   std::vector<double> differencesBefore;  ///< CIEDE2000 of P (exposed) against T
   std::vector<double> differencesAfter;   ///< CIEDE2000 of Q P against T
   DifferenceSummary before, after, skinBefore, skinAfter;
+  std::optional<StageSkins> skins;           ///< where the stage is given as spectra
   Eigen::Vector3d whiteRgb{1, 1, 1};         ///< what counted as white in the differences
   std::optional<double> spectralSimilarity;  ///< SSI of the wall's white drive to the target, where spectra are known
   std::optional<WallIntervals> intervals;    ///< 95 % of the solution, where something was captured
