@@ -8,7 +8,8 @@
 namespace {
 
 struct Session {
-  explicit Session(int threads) : host(bare_host::builtLibrary(), {.threads = threads}), effect(host.create(0)) {}
+  Session(int threads, int plugin)
+      : host(bare_host::builtLibrary(), {.threads = threads}), effect(host.create(plugin)) {}
   bare_host::Host host;
   std::unique_ptr<bare_host::Instance> effect;
   OfxRectI bounds{};
@@ -20,9 +21,14 @@ bare_host::Instance& effectOf(void* session) {
 
 }  // namespace
 
+/// An effect of the bundle by its index, in a host whose multi-thread suite runs this many threads. Free with ofxClose.
+extern "C" void* ofxOpenEffect(int threads, int plugin) {
+  return new Session(threads, plugin);
+}
+
 /// Spectral Transfer in a host whose multi-thread suite runs this many threads. Free with ofxClose.
 extern "C" void* ofxOpen(int threads) {
-  return new Session(threads);
+  return new Session(threads, 0);
 }
 
 extern "C" void ofxClose(void* session) {

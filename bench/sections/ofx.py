@@ -18,17 +18,20 @@ OURS, CUBE, MATRIX = "metamer.ofx", "OCIO log + 33^3", "OCIO 3x3 matrix"
 # At the least as fast as the cube, at the most as slow as the matrix: what the plug-in sets out to hold.
 WANTED = {CUBE: 2.5, MATRIX: 1 / 2.5}
 PAIRS = (("D65", "A"), ("D65", "HP1"))
+TRANSFER, SKIN = 0, 2
+# Of Spectral Transfer's speed.
+WANTED_OF_SKIN = 0.5
 
 
 class Effect:
-    """Spectral Transfer behind its C door (ofx_door.cpp)."""
+    """An effect behind its C door (ofx_door.cpp): Spectral Transfer, or Skin."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, index=TRANSFER):
         self.library = ctypes.CDLL(str(folder / "libmetamer_ofx_bench_door.so"))
-        self.library.ofxOpen.restype = ctypes.c_void_p
+        self.library.ofxOpenEffect.restype = ctypes.c_void_p
         self.library.ofxRender.argtypes = [ctypes.c_void_p, ctypes.c_double]
         self.library.ofxSetNumber.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_double]
-        self.handle = ctypes.c_void_p(self.library.ofxOpen(THREADS))
+        self.handle = ctypes.c_void_p(self.library.ofxOpenEffect(THREADS, index))
 
     def __del__(self):
         self.library.ofxClose(self.handle)
@@ -107,6 +110,18 @@ def parameter_change(effect, rounds):
     return rows
 
 
+def skin(transfer, folder, source, destination, rounds):
+    """Skin, map quality, and Spectral Transfer from daylight to A, in turns."""
+    effect = Effect(folder, SKIN)
+    effect.set(blood=1.5, melanin=1.2)
+    transfer.set(inputIlluminant="D65", outputIlluminant="A")
+    effect.connect(source, destination)
+    transfer.connect(source, destination)
+    times = interleaved({"skin": effect.render, "transfer": transfer.render}, rounds)
+    return {"frames_per_second": {k: 1 / float(np.median(v)) for k, v in times.items()},
+            "noise": spread(times["skin"]), "as_fast": float(np.median(times["transfer"] / times["skin"]))}
+
+
 def memory(effect):
     """Largest resident size after 100 frames and after all, MiB, mix animated by hand."""
     source = np.random.default_rng(1).random((270, 480, 4), np.float32)
@@ -128,7 +143,7 @@ def run(context):
     destination = np.empty_like(source)
     rows = [steady_state(effect, source, destination, pair, context.rounds) for pair in PAIRS]
     return {"ocio": ocio.__version__, "rounds": context.rounds, "rows": rows,
-            "change": parameter_change(effect, max(5, context.rounds // 2)), "memory": memory(effect)}
+            "skin": skin(effect, context.bin_folder.parent / "lib", source, destination, context.rounds), "change": parameter_change(effect, max(5, context.rounds // 2)), "memory": memory(effect)}
 
 
 def markdown(results):
@@ -140,6 +155,11 @@ def markdown(results):
     for row in results["rows"]:
         peers_text = " | ".join(f"{row['frames_per_second'][k]:.1f} | {row['faster_than'][k]:.2f}" for k in WANTED)
         lines.append(f"| {row['pair']} | {row['frames_per_second'][OURS]:.1f} | ±{row['noise']:.0%} | {peers_text} |")
+    # Results of before the effect have none.
+    if "skin" in results:
+        row = results["skin"]
+        lines += ["", f"Skin, map quality, on the same picture: {row['frames_per_second']['skin']:.1f} frames/s (±{row['noise']:.0%}), "
+                  f"{row['as_fast']:.2f} times as fast as Spectral Transfer (wanted: {WANTED_OF_SKIN})."]
     lines += ["", "From a parameter's change to the first frame, HD:", "",
               "| | milliseconds | least | processor milliseconds |", "| --- | --- | --- | --- |"]
     for row in results["change"]:

@@ -26,12 +26,13 @@ Frame rendered(const Features& features, const std::map<std::string, Properties:
   return output;
 }
 
-TEST(OfxHosts, DescribesTwoEffectsUnderOneGrouping) {
+TEST(OfxHosts, DescribesItsEffectsUnderOneGrouping) {
   const Host host(builtLibrary());
-  ASSERT_EQ(host.pluginCount(), 2);
+  ASSERT_EQ(host.pluginCount(), 3);
   EXPECT_EQ(host.plugin(0).pluginIdentifier, std::string("org.metamer.SpectralTransfer"));
   EXPECT_EQ(host.plugin(1).pluginIdentifier, std::string("org.metamer.LEDStage"));
-  for (int i = 0; i < 2; ++i) {
+  EXPECT_EQ(host.plugin(2).pluginIdentifier, std::string("org.metamer.Skin"));
+  for (int i = 0; i < host.pluginCount(); ++i) {
     EXPECT_EQ(host.plugin(i).pluginApi, std::string(kOfxImageEffectPluginApi));
     const auto descriptor = host.describe(i, kOfxImageEffectContextGeneral);
     const Properties& properties = descriptor->properties;

@@ -55,7 +55,7 @@ class Bundle(unittest.TestCase):
 
     def test_a_host_finds_both_effects(self):
         found = output(BIN / "metamer_ofx_render", self.bundle.parent, "list").split()
-        self.assertEqual(found, ["org.metamer.SpectralTransfer", "org.metamer.LEDStage"])
+        self.assertEqual(found, ["org.metamer.SpectralTransfer", "org.metamer.LEDStage", "org.metamer.Skin"])
 
     def test_works_from_any_folder_with_its_own_tables(self):
         elsewhere = self.folder / "some other place" / "OFX Plugins"

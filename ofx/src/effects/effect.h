@@ -12,7 +12,7 @@
 
 namespace metamer::ofx {
 
-/// Names that both effects share, in parameters.
+/// Names that effects share, in parameters.
 inline constexpr const char* kMixName = "mix";
 inline constexpr const char* kHostSpaceName = "hostSpace";
 

@@ -119,7 +119,8 @@ int OfxGetNumberOfPlugins() {
 
 OfxPlugin* OfxGetPlugin(int index) {
   static std::array<OfxPlugin, kEffectCount> plugins = {describedAs<0>("org.metamer.SpectralTransfer"),
-                                                        describedAs<1>("org.metamer.LEDStage")};
+                                                        describedAs<1>("org.metamer.LEDStage"),
+                                                        describedAs<2>("org.metamer.Skin")};
   return index >= 0 && index < kEffectCount ? &plugins[static_cast<std::size_t>(index)] : nullptr;
 }
 

@@ -26,6 +26,6 @@ class Plugin {
 };
 
 /// Identifiers by index; known before anything is loaded.
-inline constexpr int kEffectCount = 2;
+inline constexpr int kEffectCount = 3;
 
 }  // namespace metamer::ofx

@@ -2,13 +2,12 @@
 #include "pixels/spectral_pixels.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <functional>
 #include <utility>
 
 #include "host/threads.h"
-#include "pixels/signal_curve.h"
+#include "pixels/encoded_pixels.h"
 
 namespace metamer::ofx {
 
@@ -36,9 +35,6 @@ const sip::HomogeneousMap& SpectralEngine::map() const {
 
 namespace {
 
-/// Encoded pixels are worked on in parts, beside a copy of the part: what is not finite is put back.
-constexpr std::size_t kPartFloats = 2048;
-
 class SpectralPixels final : public PixelTransform {
  public:
   SpectralPixels(std::shared_ptr<const SpectralEngine> engine, std::optional<spectral::LogEncoding> encoding,
@@ -56,33 +52,14 @@ class SpectralPixels final : public PixelTransform {
       applyLinear(source, destination);
       return;
     }
-    for (std::size_t begin = 0; begin < source.size(); begin += kPartFloats) {
-      const std::size_t count = std::min(kPartFloats, source.size() - begin);
-      applyEncoded(source.subspan(begin, count), destination.subspan(begin, count));
-    }
+    throughEncoding(*m_encoding, m_quality == Quality::Map ? m_table.get() : nullptr, source, destination,
+                    [this](std::span<const float> from, std::span<float> to) { applyLinear(from, to); });
   }
 
   bool isIdentity() const override { return m_engine->exact().isIdentity(); }
   bool isHomogeneous() const override { return !m_encoding; }
 
  private:
-  void applyEncoded(std::span<const float> source, std::span<float> destination) const {
-    std::array<float, kPartFloats> memory;
-    const std::span<float> part(memory.data(), source.size());
-    std::copy(source.begin(), source.end(), part.begin());
-    if (m_table != nullptr && m_quality == Quality::Map) {
-      m_table->decode(part);
-      applyLinear(part, part);
-      m_table->encode(part);
-    } else {
-      decodePixels(*m_encoding, part);
-      applyLinear(part, part);
-      encodePixels(*m_encoding, part);
-    }
-    restoreNonFinite(source, part);
-    std::copy(part.begin(), part.end(), destination.begin());
-  }
-
   void applyLinear(std::span<const float> source, std::span<float> destination) const {
     if (const sip::HomogeneousMap* map = m_map) {
       map->apply(source, destination);

@@ -175,6 +175,11 @@ SkinIdentification SkinEstimator::identification() const {
   return result;
 }
 
+SkinChromaticities SkinEstimator::chromaticities() const {
+  const Eigen::Array2d low = m_state->start.head<2>();
+  return {low, low + (kAlongChroma - 1) / m_state->scale.head<2>(), kAlongChroma};
+}
+
 SkinPixel SkinEstimator::estimateBySolving(const Vector3d& rgb) const {
   const double mean = rgb.mean();
   const Vector3f given = rgb.cast<float>();

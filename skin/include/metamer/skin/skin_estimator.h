@@ -23,6 +23,14 @@ struct SkinIdentification {
   bool separatesBloodFromMelanin = true;
 };
 
+/// Chromaticities that an estimator tells apart, (R - G) and (B - G) over the mean of the three; others count as the
+/// nearest. So many knots lie evenly along each, first and last included.
+struct SkinChromaticities {
+  Eigen::Array2d low;
+  Eigen::Array2d high;
+  int knots = 0;
+};
+
 /// Colours to skins (sections 3.6 to 3.8): the most probable parameters under the prior (maximum a posteriori) by a
 /// table over chromaticity and brightness, and the exact colour by a residual. Immutable, safe between threads.
 ///
@@ -52,6 +60,7 @@ class SkinEstimator {
   SkinSpectrum albedo(const SkinParameters& skin) const { return colours().albedo(skin); }
 
   SkinIdentification identification() const;
+  SkinChromaticities chromaticities() const;
 
   /// The most probable skin of a colour, solved without the table, and its gain: for comparison.
   SkinPixel estimateBySolving(const Eigen::Vector3d& rgb) const;
