@@ -8,7 +8,7 @@ DEFAULTS = (
     ("map 0.09", ("homogeneous map",), "all"),
     ("exact engine 251", ("exact engine",), "all"),
     ("chain 65, {ocio}", ("matrix", "chain, {ocio}", "fitted cube, {ocio}", "sampled cube, {ocio}"), "all"),
-    ("fitted prelut + cube 33, {ocio}", ("matrix", "fitted prelut + cube, {ocio}", "fitted cube, {ocio}", "sampled cube, {ocio}"),
+    ("fitted 1-D shaper + cube 33, {ocio}", ("matrix", "fitted 1-D shaper + cube, {ocio}", "fitted cube, {ocio}", "sampled cube, {ocio}"),
      "inside"),
     ("fitted cube 33, {ocio}", ("matrix", "fitted cube, {ocio}", "sampled cube, {ocio}"), "inside"),
 )
@@ -48,7 +48,7 @@ def markdown(rows):
     found = beaten(rows)
     lines = ["Cheaper (faster beyond noise, and no larger) and more accurate (p99) than the default in the same place: " +
              ("; ".join(f"{name} than {default} ({pair})" for pair, default, name in found) or "none") +
-             ". Defaults: map 0.09, 251 bands, a chain of 65 nodes, fitted cubes of 33, with and without a prelut."]
+             ". Defaults: map 0.09, 251 bands, a chain of 65 nodes, fitted cubes of 33, with and without a 1-D shaper."]
     larger = [(pair, default, row) for pair, default, row in faster_and_more_accurate(rows) if row["bytes"] > default["bytes"]]
     if larger:
         lines += ["", "Faster in this run and more accurate, but larger: " +

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cubes baked by lutgen, certificate included: fitted (behind a prelut and without) and sampled, seconds and error inside
+"""Cubes baked by lutgen, certificate included: fitted (behind a 1-D shaper and without) and sampled, seconds and error inside
 the gamut within ±7 stops."""
 
 import json
@@ -11,7 +11,7 @@ from pathlib import Path
 
 PAIRS = (("D65", "A"), ("D65", "HP1"), ("D65", "FL11"))
 SIZES = (33, 65)
-KINDS = (("fitted, prelut", ("--format", "resolve_cube")), ("fitted", ()), ("sampled", ("--sampled",)))
+KINDS = (("fitted, 1-D shaper", ("--format", "resolve_cube")), ("fitted", ()), ("sampled", ("--sampled",)))
 
 
 def run(context):

@@ -17,7 +17,7 @@ MAP_TOLERANCES = (0.03, 0.09, 0.3, 1.0)
 EXACT_BANDS = (81, 161, 251)
 CHAIN_SIZES = (17, 33, 65, 129)
 CUBE_SIZES = (17, 33, 65)
-CUBE_KINDS = (("fitted prelut + cube", ("--format", "resolve_cube")), ("fitted cube", ()), ("sampled cube", ("--sampled",)))
+CUBE_KINDS = (("fitted 1-D shaper + cube", ("--format", "resolve_cube")), ("fitted cube", ()), ("sampled cube", ("--sampled",)))
 
 
 def bake(context, pair, folder, name, *options):

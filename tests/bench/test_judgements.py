@@ -30,7 +30,7 @@ ROWS = [row("map 0.03", "homogeneous map", 3e6, 6, 0.05), row("map 0.09", "homog
         row("map 0.3", "homogeneous map", 1e6, 4.5, 0.2), row("exact engine 81", "exact engine", 0, 5000, 0.3),
         row("exact engine 251", "exact engine", 0, 9000, 0.02), row("matrix", "matrix", 36, 2.5, 8),
         row("chain 33, 2.6.0", "chain, 2.6.0", 2e6, 80, 0.4), row("chain 65, 2.6.0", "chain, 2.6.0", 1.2e7, 85, 0.2),
-        row("fitted prelut + cube 33, 2.6.0", "fitted prelut + cube, 2.6.0", 1.1e6, 24, 0.7),
+        row("fitted 1-D shaper + cube 33, 2.6.0", "fitted 1-D shaper + cube, 2.6.0", 1.1e6, 24, 0.7),
         row("fitted cube 17, 2.6.0", "fitted cube, 2.6.0", 1e5, 20, 5),
         row("fitted cube 33, 2.6.0", "fitted cube, 2.6.0", 1e6, 22, 2),
         row("sampled cube 65, 2.6.0", "sampled cube, 2.6.0", 8e6, 30, 1.9)]
