@@ -29,6 +29,7 @@ std::array<int, 3> colourChannels(const OIIO::ImageSpec& spec, const std::string
 Picture::Picture(const std::filesystem::path& file) : m_pixels(file.string()) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
+    static_cast<void>(m_pixels.geterror());  // else OpenImageIO says it as well, on stdout
     throw InputError(file.string(), "", "", "is not there; check the path");
   }
   if (!m_pixels.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {

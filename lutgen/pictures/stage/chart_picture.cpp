@@ -29,7 +29,13 @@ stage::ChartTable ChartReader::read(const stage::StageChart& chart, std::vector<
                      "are missing; a picture needs the chart's four corners, or give a CSV (patch,R,G,B)");
   }
   const Picture picture(chart.file);
-  const stage::ChartSampler::Sampled sampled = m_sampler.sample(picture.view(), chart.corners);
+  const stage::ChartSampler::Sampled sampled = [&] {
+    try {
+      return m_sampler.sample(picture.view(), chart.corners);
+    } catch (const InputError& error) {
+      throw InputError(chart.file.string(), "", "", error.what());
+    }
+  }();
   if (sampled.quarters != 0) {
     notes.push_back(chart.file.string() + ": the chart lies turned by " + std::to_string(90 * sampled.quarters) +
                     " degrees against its corners; its patches were read that way");

@@ -14,6 +14,7 @@ void addStage(CLI::App& application) {
   addStageSample(*stage);
   addStageLinearity(*stage);
   addStageEmitter(*stage);
+  addStagePatterns(*stage);
 }
 
 }  // namespace metamer::lutgen

@@ -13,5 +13,6 @@ void addStageEnvironment(CLI::App& stage);
 void addStageSample(CLI::App& stage);
 void addStageLinearity(CLI::App& stage);
 void addStageEmitter(CLI::App& stage);
+void addStagePatterns(CLI::App& stage);
 
 }  // namespace metamer::lutgen
