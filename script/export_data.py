@@ -24,6 +24,7 @@ from data_export.reflectances import reflectance_tables
 from data_export.rgb_spaces import rgb_space_table
 from data_export.skin import skin_tables
 from data_export.table import Table
+from data_export.uplifts import uplift_tables
 
 ROOT = Path(__file__).resolve().parent.parent
 PINNED = {"colour-science": "0.4.7", "lighting-filters": "0.1.1", "mne": "1.13.2"}
@@ -38,6 +39,7 @@ GROUPS = (
     "chromophores",
     "skin_prior",
     "skin_network",
+    "uplifts",
 )
 
 
@@ -66,6 +68,7 @@ def build() -> list[Table]:
             rgb_space_table(colour),
             pixel_table(colour),
             *skin_tables(),
+            *uplift_tables(colour),
         ]
     check_names(tables)
     return sorted(tables, key=lambda t: (GROUPS.index(t.group), t.file))

@@ -19,12 +19,14 @@ from ._core import (
     Report,
     Spectrum,
     Transform,
+    Uplift,
     correlated_colour_temperature,
     delta_e_2000,
     lab,
     response,
     spectral_similarity_index,
     tristimulus,
+    uplift_methods,
 )
 from ._core import version as __version__
 
@@ -38,6 +40,7 @@ __all__ = [
     "Report",
     "Spectrum",
     "Transform",
+    "Uplift",
     "__version__",
     "correlated_colour_temperature",
     "delta_e_2000",
@@ -45,4 +48,5 @@ __all__ = [
     "response",
     "spectral_similarity_index",
     "tristimulus",
+    "uplift_methods",
 ]

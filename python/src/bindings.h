@@ -19,6 +19,7 @@ void bindTransform(nb::module_& module);
 void bindComparison(nb::module_& module);
 void bindStage(nb::module_& module);
 void bindSkin(nb::module_& module);
+void bindUplift(nb::module_& module);
 
 /// `library`, or where it is None the tables of $METAMER_DATA, else those that lie beside the module.
 /// @throws spectral::InputError where there are none

@@ -14,4 +14,5 @@ NB_MODULE(_core, module) {
   bindComparison(module);
   bindStage(module);
   bindSkin(module);
+  bindUplift(module);
 }

@@ -39,8 +39,9 @@ QUANTITIES = {
     "chromophores": "molar extinction",
     "skin_prior": "distribution of parameters",
     "skin_network": "weights of networks",
+    "uplifts": "basis of reflectances",
 }
-NO_SPECTRA = {"rgb_spaces", "pixels", "skin_prior", "skin_network"}
+NO_SPECTRA = {"rgb_spaces", "pixels", "skin_prior", "skin_network", "uplifts"}
 OBSERVERS = {
     "CIE 1931 2",
     "CIE 1964 10",

@@ -18,9 +18,9 @@ constexpr int kVersion = 1;
 SpectralQuantity readQuantity(const nlohmann::json& table, const std::string& group, const std::string& where) {
   const std::string stated = requiredText(table, "quantity", where);
   // The daylight components are parts of a distribution and go below zero; an extinction is like a sensitivity, zero
-  // outside its range; chromaticities, pixels and distributions of parameters and weights are no spectra.
+  // outside its range; chromaticities, pixels, distributions of parameters, weights and bases are no spectra.
   if (group == "daylight_basis" || group == "chromophores" || group == "rgb_spaces" || group == "pixels" ||
-      group == "skin_prior" || group == "skin_network") {
+      group == "skin_prior" || group == "skin_network" || group == "uplifts") {
     return SpectralQuantity::Sensitivity;
   }
   for (const SpectralQuantity quantity : {SpectralQuantity::SpectralPowerDistribution, SpectralQuantity::Sensitivity,
