@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stage/stage_reading.h"
 
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_files.h"
 #include "stage/chart_picture.h"
 #include "stage/environment_picture.h"
 #include "stage/fixture_options.h"
@@ -27,6 +29,23 @@ stage::StageReadings readFiles(const stage::StageDescription& stage, const spect
   return readings;
 }
 
+std::optional<std::array<stage::PanelEotf, 3>> fitRamps(const stage::StageDescription& stage) {
+  if (stage.ramps[0].empty()) {
+    return std::nullopt;
+  }
+  std::array<stage::PanelEotf, 3> eotf;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string file = stage.ramps[k].string();
+    const stage::DriveSeries series = stage::parseDriveSeries(spectral::readTextFile(stage.ramps[k]), file);
+    try {
+      eotf[k] = stage::fitEotf(series);
+    } catch (const spectral::InputError& error) {
+      throw spectral::InputError(file, "", "", error.what());
+    }
+  }
+  return eotf;
+}
+
 }  // namespace
 
 stage::StageCapture readCapture(const stage::StageDescription& stage, const spectral::DataLibrary& library,
@@ -42,7 +61,9 @@ stage::StageCapture readCapture(const stage::StageDescription& stage, const spec
   const auto xyzFromResponse = [&](const spectral::Spectrum& light, const spectral::Observer& observer) {
     return xyzFromResponseUnder(light, observer, library);
   };
-  return stage::captureOf(stage, library, xyzFromResponse, readings, environmentWhite);
+  stage::StageCapture capture = stage::captureOf(stage, library, xyzFromResponse, readings, environmentWhite);
+  capture.eotf = fitRamps(stage);
+  return capture;
 }
 
 }  // namespace metamer::lutgen

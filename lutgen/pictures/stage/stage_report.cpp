@@ -77,6 +77,47 @@ std::string matrixRows(const Eigen::Matrix3d& matrix, const stage::Interval<Eige
   return text;
 }
 
+constexpr std::array<const char*, 3> kChannels = {"red", "green", "blue"};
+
+/// What is sent for the environment's white.
+Eigen::Vector3d environmentSignal(const stage::StageResult& result) {
+  Eigen::Vector3d signal;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto channel = static_cast<Eigen::Index>(k);
+    signal[channel] = (*result.capture.eotf)[k].driveFor(result.solution.environmentDrive[channel]);
+  }
+  return signal;
+}
+
+Json toJson(const stage::PanelEotf& eotf) {
+  return {{"model", eotf.isCurve ? "curve" : "power"},
+          {"gamma", numberToJson(eotf.gamma)},
+          {"offset", eotf.offset},
+          {"gain", numberToJson(eotf.gain)},
+          {"black", eotf.black},
+          {"residual", eotf.residual},
+          {"drives", eotf.drives},
+          {"light", eotf.light}};
+}
+
+std::string textOf(const stage::PanelEotf& eotf) {
+  return eotf.isCurve ? spectral::formatted("a curve of %zu steps (no power; the nearest is %.2f), residual %.2f %%",
+                                            eotf.drives.size(), eotf.gamma, 100 * eotf.residual)
+                      : spectral::formatted("power %.3f, dead below %.3f, residual %.2f %%", eotf.gamma, -eotf.offset,
+                                            100 * eotf.residual);
+}
+
+/// A line a channel, and what is sent for the environment's white.
+std::string eotfInWords(const stage::StageResult& result, const char* before) {
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    text += spectral::formatted("%sEOTF of %s: %s\n", before, kChannels[k], textOf((*result.capture.eotf)[k]).c_str());
+  }
+  const Eigen::Vector3d signal = environmentSignal(result);
+  return text + spectral::formatted("%sthe environment's white is sent as %.4f, %.4f, %.4f of full\n", before,
+                                    signal[0], signal[1], signal[2]);
+}
+
 /// A patch's name cannot break the table.
 std::string cell(const std::string& name) {
   std::string text;
@@ -102,6 +143,12 @@ Json toJson(const stage::StageResult& result) {
   json["black_level"] = toJson(result.capture.wall.blackLevel);
   json["environment_white"] = toJson(result.capture.wall.environmentWhite);
   json["environment_drive"] = toJson(solution.environmentDrive);
+  if (result.capture.eotf) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      json["eotf"][kChannels[k]] = toJson((*result.capture.eotf)[k]);
+    }
+    json["environment_signal"] = toJson(environmentSignal(result));
+  }
   json["colour_space"] = result.capture.colourSpace;
   json["condition"] = {{"primaries", numberToJson(solution.wallCondition)},
                        {"chart", numberToJson(solution.chartCondition)},
@@ -169,6 +216,9 @@ std::string summaryOf(const stage::StageResult& result) {
     text += spectral::formatted("skin patches: M alone %.2f %.2f, M and Q %.2f %.2f\n", result.skinBefore.mean,
                                 result.skinBefore.max, result.skinAfter.mean, result.skinAfter.max);
   }
+  if (result.capture.eotf) {
+    text += eotfInWords(result, "");
+  }
   if (result.skins) {
     text += spectral::formatted("%d virtual skins: M alone %s; M and Q %s\n", result.skins->count,
                                 textOf(result.skins->before).c_str(), textOf(result.skins->after).c_str());
@@ -228,6 +278,9 @@ std::string reportOf(const stage::StageResult& result, const std::string& figure
                               solution.frustumOffset[1], solution.frustumOffset[2], result.capture.wall.beta);
   text += spectral::formatted("Condition numbers: primaries %.3g, chart %.3g, Q %.3g.\n", solution.wallCondition,
                               solution.chartCondition, solution.correctionCondition);
+  if (result.capture.eotf) {
+    text += "\n" + eotfInWords(result, "- ");
+  }
   if (result.intervals) {
     text += "\n" + intervalsInWords(result) + ".\n\nQ with its intervals:\n\n" +
             matrixRows(solution.correctedFromCamera, result.intervals->correctedFromCamera) +

@@ -9,7 +9,7 @@
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/stage/emitter_model.h"
-#include "metamer/stage/panel_linearity.h"
+#include "metamer/stage/panel_eotf.h"
 #include "stage/chart_picture.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
@@ -75,21 +75,7 @@ void sample(const SampleOptions& options) {
 
 void linearity(const std::string& file, double tolerance, const std::string& output) {
   spectral::requireWritable(output);
-  // The series has a chart's form: the drive stands where a patch's name does.
-  const stage::ChartTable table = stage::parseChart(spectral::readTextFile(file), file);
-  stage::DriveSeries series;
-  series.rgb = table.rgb;
-  for (const std::string& name : table.names) {
-    double drive = 0;
-    const auto parsed = std::from_chars(name.data(), name.data() + name.size(), drive);
-    if (parsed.ec != std::errc() || parsed.ptr != name.data() + name.size() || !(drive >= 0)) {
-      throw InputError(file, "patch", name, "must be the drive that was sent, a number from 0");
-    }
-    series.drives.push_back(drive);
-  }
-  if (!table.rgb.allFinite()) {
-    throw InputError(file, "value", "", "is missing; give every drive its R, G and B");
-  }
+  const stage::DriveSeries series = stage::parseDriveSeries(spectral::readTextFile(file), file);
   const stage::PanelLinearity judged = stage::judgeLinearity(series);
   const bool isLinear = judged.deviation <= tolerance;
   if (!output.empty()) {

@@ -46,9 +46,11 @@ std::string skeletonText(const StageSkeleton& skeleton) {
   text += "\n# What the camera sees of the panels in its view while they show " + picture("black") +
           ",\n# all other panels lit as in the shot (" + picture("white") + ").\nblack_level: [0, 0, 0]\n";
   text +=
-      "\n# Whether the panels are linear: what the camera sees of each step, a CSV a channel (patch,R,G,B), the drive "
-      "in\n"
-      "# place of the patch's name; then: lutgen stage linearity red.csv\n#   drive        shown by\n";
+      "\n# What the panels make of what is sent: what the camera sees of each step, a CSV a channel (patch,R,G,B), "
+      "the\n"
+      "# drive in place of the patch's name. Linear panels need none; see: lutgen stage linearity ramp_red.csv\n"
+      "# ramps: {red: captures/ramp_red.csv, green: captures/ramp_green.csv, blue: captures/ramp_blue.csv}\n"
+      "#   drive        shown by\n";
   for (std::size_t i = 0; i < skeleton.ramp.size(); ++i) {
     text += spectral::formatted("#   %-11.9g  ", skeleton.ramp[i]);
     for (const char* channel : kChannels) {

@@ -224,7 +224,7 @@ StageDescription parseStage(const std::string& text, const std::string& where, c
   const YamlSection top =
       reader.section(root, "",
                      {"metamer_stage", "name", "primaries", "charts", "spectra", "calibration_square", "environment",
-                      "black_level", "q", "noise", "saturation", "exclude", "colour_space"});
+                      "black_level", "q", "noise", "saturation", "exclude", "colour_space", "ramps"});
   const YamlNode& version = top.require("metamer_stage", "is missing; a stage file starts with 'metamer_stage: 1'");
   if (version.kind != Kind::Scalar || version.text != "1") {
     throw top.error(version, "metamer_stage", version.text, "is a version this release does not read; it reads 1");
@@ -252,6 +252,14 @@ StageDescription parseStage(const std::string& text, const std::string& where, c
   }
   if (const YamlNode* environment = top.find("environment")) {
     readEnvironment(reader, *environment, stage);
+  }
+  if (const YamlNode* ramps = top.find("ramps")) {
+    const YamlSection section = reader.section(*ramps, "ramps", {"red", "green", "blue"});
+    for (std::size_t k = 0; k < 3; ++k) {
+      const YamlNode& node = section.require(
+          kChannels[k], "is missing; give what the camera saw of the channel's ramp, a CSV (patch,R,G,B)");
+      stage.ramps[k] = reader.file(section.text(node, kChannels[k]));
+    }
   }
   if (const YamlNode* black = top.find("black_level")) {
     stage.blackLevel = reader.colour(top, *black, "black_level");

@@ -11,6 +11,7 @@
 #include "metamer/spectral/data_library.h"
 #include "metamer/stage/chart_expectation.h"
 #include "metamer/stage/chart_table.h"
+#include "metamer/stage/panel_eotf.h"
 #include "metamer/stage/rgb_wall.h"
 #include "metamer/stage/stage_description.h"
 
@@ -28,11 +29,12 @@ struct StageCapture {
   Eigen::Matrix3d xyzFromCamera;         ///< for colour differences
   Eigen::Vector3d cameraWhite{1, 1, 1};  ///< what is neutral in that space, for configs
   std::optional<CaptureSpectra> spectra;
-  int columns = 6;                              ///< of the chart, for pictures of it
-  std::string colourSpace;                      ///< what that matrix is: a space's name, or how it was found
-  int whitePatch = -1;                          ///< the chart's white; -1: none fit for it
-  bool whiteIsFromTarget = false;               ///< w_avg is the white patch's, over its reflectance
-  std::optional<ChartExpectation> expectation;  ///< of a photographed chart whose patches are known
+  int columns = 6;                               ///< of the chart, for pictures of it
+  std::string colourSpace;                       ///< what that matrix is: a space's name, or how it was found
+  int whitePatch = -1;                           ///< the chart's white; -1: none fit for it
+  bool whiteIsFromTarget = false;                ///< w_avg is the white patch's, over its reflectance
+  std::optional<ChartExpectation> expectation;   ///< of a photographed chart whose patches are known
+  std::optional<std::array<PanelEotf, 3>> eotf;  ///< of the wall's channels, where ramps were captured
   std::vector<int> skinPatches;
   std::optional<WallCapture> skins;  ///< virtual skins in place of the chart, where spectra are known
   std::vector<ExcludedPatch> excluded;

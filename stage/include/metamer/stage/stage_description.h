@@ -59,6 +59,7 @@ struct StageDescription {
   std::array<StagePrimary, 3> primaries;
   std::array<StageChart, 3> charts;
   StageChart target;
+  std::array<std::filesystem::path, 3> ramps;  ///< a CSV a channel (parseDriveSeries); all empty: none
   StageLayout layout;
   double widthM = 1;
   double heightM = 1;
