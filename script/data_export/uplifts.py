@@ -78,7 +78,7 @@ def uplift_tables(colour: Any) -> list[Table]:
             },
             "Mallett, Yuksel 2019, Spectral primary decomposition for rendering with sRGB "
             "reflectance, doi:10.2312/sr.20191216",
-            "Made for Rec.709 under D65. The curves add to 1 at each wavelength.",
+            "Made for Rec.709 under D65. The curves add to 1 within 1e-5 at each wavelength.",
         ),
         uplift(
             "otsu_2018",

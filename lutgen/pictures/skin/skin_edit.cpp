@@ -53,6 +53,7 @@ class Editing {
   void begin(const Frame& first) {
     AnyPicture picture(first.input, m_options.mostPixels);
     const SkinMapsPlace place = findSkinMaps(picture, first.input.string());
+    m_bytes = 4 * picture.bytes();
     m_from = spaceOf(picture, place, first.input);
     m_capture = captureOf(picture, place);
     m_colours.emplace(m_library, skinView(m_capture, m_from->linear, m_library));
@@ -65,7 +66,8 @@ class Editing {
     }
   }
 
-  std::uint64_t bytes(const fs::path& maps) const { return 4 * AnyPicture(maps, m_options.mostPixels).bytes(); }
+  /// That a frame takes, as the first does.
+  std::uint64_t bytes() const { return m_bytes; }
 
   void edit(const Frame& frame, int threads) {
     AnyPicture picture(frame.input, m_options.mostPixels);
@@ -148,6 +150,7 @@ class Editing {
   const spectral::DataLibrary m_library;
   const ocio::ConfigSource m_config;
   SkinCapture m_capture;
+  std::uint64_t m_bytes = 0;
   std::optional<PictureSpace> m_from;
   std::optional<PictureSpace> m_to;
   std::optional<SampleType> m_type;
@@ -168,7 +171,7 @@ void edit(const EditOptions& options, const CLI::App& command) {
   const std::vector<Frame> frames = framesOf(options.maps, options.output, options.frames);
   Editing editing(options, std::move(steps));
   editing.begin(frames[0]);
-  const ThreadShare share = shareThreads(options.threads, frames.size(), editing.bytes(frames[0].input));
+  const ThreadShare share = shareThreads(options.threads, frames.size(), editing.bytes());
   {
     FrameReport report("lutgen skin edit", frames.size());
     forEachFrame(

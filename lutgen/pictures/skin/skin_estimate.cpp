@@ -82,6 +82,7 @@ class Estimation {
   /// Reads the header of the first picture, and makes what all need.
   void begin(const fs::path& albedo, int threads) {
     AnyPicture picture(albedo, m_options.mostPixels);
+    m_bytes = 6 * picture.bytes();
     m_space = spaceOf(picture, layerOf(picture, albedo), albedo);
     if (m_options.method != "map") {
       beginNetwork();
@@ -97,7 +98,8 @@ class Estimation {
     }
   }
 
-  std::uint64_t bytes(const fs::path& albedo) const { return 6 * AnyPicture(albedo, m_options.mostPixels).bytes(); }
+  /// That a frame takes, as the first does.
+  std::uint64_t bytes() const { return m_bytes; }
 
   void estimate(const Frame& frame, int threads) {
     AnyPicture picture(frame.input, m_options.mostPixels);
@@ -133,8 +135,7 @@ class Estimation {
   }
 
   void report(std::size_t frames) const {
-    const auto notes = m_notes;
-    note({notes.begin(), notes.end()});
+    note({m_notes.begin(), m_notes.end()});
     const double all = static_cast<double>(std::max<std::size_t>(m_findings.pixels, 1));
     if (!m_options.json.empty()) {
       writeJson(m_options.json, json());
@@ -245,6 +246,7 @@ class Estimation {
   const spectral::DataLibrary m_library;
   const ocio::ConfigSource m_config;
   SkinCapture m_capture;
+  std::uint64_t m_bytes = 0;
   std::optional<PictureSpace> m_stated;
   std::optional<PictureSpace> m_space;
   std::optional<skin::SkinEstimator> m_estimator;
@@ -263,7 +265,7 @@ void estimate(const EstimateOptions& options) {
   spectral::requireWritable(options.json);
   Estimation estimation(options);
   estimation.begin(frames[0].input, skinThreads(options.threads));
-  const ThreadShare share = shareThreads(options.threads, frames.size(), estimation.bytes(frames[0].input));
+  const ThreadShare share = shareThreads(options.threads, frames.size(), estimation.bytes());
   {
     FrameReport report("lutgen skin estimate", frames.size());
     forEachFrame(

@@ -2,6 +2,7 @@
 #include "effects/skin.h"
 
 #include "effects/shared_cache.h"
+#include "effects/signal_tables.h"
 #include "host/parameter_makers.h"
 #include "metamer/skin/skin_look.h"
 #include "metamer/spectral/text.h"
@@ -17,7 +18,6 @@ constexpr const char* kObserver = "CIE 1931 2";
 /// Estimators take a second and a third of a megabyte, looks some milliseconds and 0.15.
 constexpr std::size_t kKeptEstimators = 8;
 constexpr std::size_t kKeptLooks = 32;
-constexpr std::size_t kKeptTables = 16;
 
 std::vector<Parameter> skinParameters(const Catalogue& catalogue) {
   std::vector<Parameter> parameters;
@@ -96,7 +96,7 @@ class Skin final : public Effect {
     return m_looks.get(key, [&] {
       return SharedCache<SkinPixels>::Built{
           std::make_shared<const SkinPixels>(skin::SkinLook(*estimator, settings), space.encoding,
-                                             tableOf(space, quality), quality),
+                                             m_tables.get(space, quality), quality),
           {}};
     });
   }
@@ -117,17 +117,8 @@ class Skin final : public Effect {
     return key;
   }
 
-  std::shared_ptr<const SignalTable> tableOf(const spectral::ColourSpace& space, Quality quality) const {
-    if (!space.encoding || quality != Quality::Map) {
-      return nullptr;
-    }
-    return m_tables.get(spectral::nameOf(*space.encoding), [&] {
-      return SharedCache<SignalTable>::Built{std::make_shared<const SignalTable>(*space.encoding), {}};
-    });
-  }
-
   const Catalogue& m_catalogue;
-  mutable SharedCache<SignalTable> m_tables{kKeptTables};
+  SignalTables m_tables;
   mutable SharedCache<skin::SkinEstimator> m_estimators{kKeptEstimators};
   mutable SharedCache<SkinPixels> m_looks{kKeptLooks};
 };

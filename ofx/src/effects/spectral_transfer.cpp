@@ -3,6 +3,7 @@
 
 #include "effects/file_stamp.h"
 #include "effects/shared_cache.h"
+#include "effects/signal_tables.h"
 #include "effects/spectral_transfer_parameters.h"
 #include "metamer/sip/recipe.h"
 #include "metamer/spectral/input_error.h"
@@ -16,7 +17,6 @@ using spectral::InputError;
 
 /// Engines kept beyond those in use: enough to go back and forth between settings, and to scrub an animated light.
 constexpr std::size_t kKeptEngines = 24;
-constexpr std::size_t kKeptTables = 16;
 
 /// Reads one instance's parameters at one time as a recipe.
 class RecipeReader {
@@ -148,7 +148,7 @@ class SpectralTransfer final : public Effect {
           std::move(files)};
     });
     const Quality quality = values.menu("quality", time) == kExactQuality ? Quality::Exact : Quality::Map;
-    return makeSpectralPixels(engine, space.encoding, tableOf(space, quality), quality);
+    return makeSpectralPixels(engine, space.encoding, m_tables.get(space, quality), quality);
   }
 
   std::string wantedSpace(const ParameterValues& values) const override { return values.menu("space", 0); }
@@ -178,17 +178,8 @@ class SpectralTransfer final : public Effect {
   }
 
  private:
-  std::shared_ptr<const SignalTable> tableOf(const spectral::ColourSpace& space, Quality quality) const {
-    if (!space.encoding || quality != Quality::Map) {
-      return nullptr;
-    }
-    return m_tables.get(spectral::nameOf(*space.encoding), [&] {
-      return SharedCache<SignalTable>::Built{std::make_shared<const SignalTable>(*space.encoding), {}};
-    });
-  }
-
   const Catalogue& m_catalogue;
-  mutable SharedCache<SignalTable> m_tables{kKeptTables};
+  SignalTables m_tables;
   mutable SharedCache<SpectralEngine> m_engines{kKeptEngines};
   mutable sip::SceneCache m_scenes;
   sip::MapMemory m_memory;

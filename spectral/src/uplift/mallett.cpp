@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mallett and Yuksel 2019, "Spectral primary decomposition for rendering with sRGB reflectance", equation 1: three
-// curves that add to one, each the reflectance of a primary.
+// curves that add to one within 1e-5, each the reflectance of a primary.
 #include "uplift/methods.h"
 #include "uplift/uplift_basis.h"
 
