@@ -9,6 +9,7 @@ int main(int argumentCount, char** arguments) {
     metamer::lutgen::addCompare(application);
     metamer::lutgen::addSkin(application);
     metamer::lutgen::addStage(application);
+    metamer::lutgen::addUplift(application);
     metamer::lutgen::addValidate(application);
   });
 }

@@ -11,6 +11,7 @@ void addApply(CLI::App& application);
 void addCompare(CLI::App& application);
 void addSkin(CLI::App& application);
 void addStage(CLI::App& application);
+void addUplift(CLI::App& application);
 void addValidate(CLI::App& application);
 
 }  // namespace metamer::lutgen

@@ -11,6 +11,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "metamer/sip/scene_uplift.h"
 
 using namespace nanobind::literals;
 
@@ -51,20 +52,20 @@ NumpyDoubles spectraOf(const AnyUplift& self, nb::handle rgb) {
 }  // namespace
 
 void bindUplift(nb::module_& module) {
-  nb::class_<AnyUplift>(
-      module, "Uplift",
-      "A published way from colours to reflectances: 'smits', 'mallett', 'jakob', 'jakob table', 'otsu', 'meng'.\n"
-      "Colours are linear RGB of Rec.709's primaries, white the perfect reflector under D65.")
+  nb::class_<AnyUplift>(module, "Uplift",
+                        "A way from colours to reflectances: the published 'smits', 'mallett', 'jakob', 'jakob table', "
+                        "'otsu', 'meng', and\n"
+                        "the scenes 'smooth', 'natural', 'skin' as a recipe takes them under D65.\n"
+                        "Colours are linear RGB of Rec.709's primaries, white the perfect reflector under D65.")
       .def(
           "__init__",
           [](AnyUplift* self, const std::string& method, nb::handle weights) {
-            new (self) AnyUplift{
-                spectral::makeUplift(spectral::upliftMethodNamed(method), libraryOr(nullptr), weightsFrom(weights))};
+            new (self) AnyUplift{sip::makeUplift(method, libraryOr(nullptr), weightsFrom(weights))};
           },
           "method"_a, nb::kw_only(), "weights"_a = nb::none(),
           nb::sig("def __init__(self, method: str, *, weights: numpy.typing.ArrayLike | None = None) -> None"),
           "weights: X, Y and Z that each wavelength of the method counts for, the perfect reflector at Y = 1;\n"
-          "left out, exact integrals under D65 for the CIE 1931 2° observer.")
+          "left out, exact integrals under D65 for the CIE 1931 2° observer. The scenes take none.")
       .def_prop_ro(
           "wavelengths",
           [](const AnyUplift& self) {
@@ -78,7 +79,7 @@ void bindUplift(nb::module_& module) {
       .def("__call__", &spectraOf, "rgb"_a,
            nb::sig("def __call__(self, rgb: numpy.typing.ArrayLike) -> numpy.typing.NDArray[numpy.float64]"),
            "Reflectances of colours, shape (..., 3) to (..., wavelengths). Of a colour with NaN, NaN.");
-  module.def("uplift_methods", &spectral::upliftMethodNames, "What Uplift can be of.");
+  module.def("uplift_methods", &sip::upliftNames, "What Uplift can be of.");
 }
 
 }  // namespace metamer::python

@@ -50,6 +50,7 @@ class Signals(LutgenTest):
             "apply one": ["apply", "old.ctf", "in.0001.exr", "one.exr"],
             "validate": ["validate", "r.yaml", "--json", "v.json", "--replicates", "3", "--samples", "1", "--tolerance", "9"],
             "skin": ["skin", "sample", "-o", "skins.csv", "--chart", "skins.exr", "--count", "500"],
+            "uplift": ["uplift", "in.0001.exr", "-o", "u.exr", "--method", "mallett", "--picture-space", "Rec.709"],
             "solve": ["stage", "solve", "stage.yaml", "-o", "solved.json", "--report", "solved.md", "--luts", "wall", "--config",
                       "wall.ocio", "--figure", "chart.png", "--samples", "20000"],
             "match": ["stage", "match", "--target", "t.csv", "--charts", "r.csv", "g.csv", "b.csv", "--weights", "perceptual",

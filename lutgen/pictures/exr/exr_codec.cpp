@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "exr/exr_reader.h"
-#include "exr/zip_block.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 
@@ -232,12 +231,12 @@ std::string unpackedChunk(const ExrPart& part, const ExrRectangle& rectangle, st
 }
 
 std::string packedChunk(const ExrPart& part, const ExrRectangle& rectangle, const std::string& samples,
-                        const std::string& file) {
+                        const std::string& file, int zipLevel) {
   if (part.compression == ExrCompression::None) {
     return samples;
   }
   if (isOwn(part.compression)) {
-    return zippedBlock(samples);
+    return zippedBlock(samples, zipLevel);
   }
   try {
     Planes planes(part, rectangle);

@@ -6,6 +6,7 @@
 
 #include "exr/exr_file.h"
 #include "exr/exr_samples.h"
+#include "exr/zip_block.h"
 
 namespace metamer::lutgen {
 
@@ -19,8 +20,9 @@ std::string unpackedChunk(const ExrPart& part, const ExrRectangle& rectangle, st
                           const std::string& file);
 
 /// @param samples  row by row, of each row channel by channel
+/// @param zipLevel  for ZIP and ZIPS
 /// @throws spectral::InputError where the library fails
 std::string packedChunk(const ExrPart& part, const ExrRectangle& rectangle, const std::string& samples,
-                        const std::string& file);
+                        const std::string& file, int zipLevel = kUsualZipLevel);
 
 }  // namespace metamer::lutgen

@@ -115,6 +115,12 @@ std::size_t exrBytes(const std::vector<ExrChannel>& channels, const ExrRectangle
   return bytes;
 }
 
+void putSamples(char* bytes, ExrType type, std::span<const float> values) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    writeSample(bytes, type, k, values[k]);
+  }
+}
+
 std::string changedSamples(std::string samples, const ExrRectangle& rectangle, const std::vector<ExrChannel>& before,
                            const std::vector<ExrChannel>& after, const std::vector<ExrColours>& colours,
                            const PixelFunction& pixels) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct ExrRectangle {
 std::size_t exrRowBytes(const std::vector<ExrChannel>& channels, const ExrRectangle& rectangle, int y);
 /// Bytes of all.
 std::size_t exrBytes(const std::vector<ExrChannel>& channels, const ExrRectangle& rectangle);
+
+/// Numbers as samples, one after another. What half cannot hold becomes the largest half.
+void putSamples(char* bytes, ExrType type, std::span<const float> values);
 
 /// Changes the colours of samples.
 /// @param before, after  the part's channels; types alone may differ

@@ -4,6 +4,7 @@
 #ifdef METAMER_HAS_LIBDEFLATE
 #include <libdeflate.h>
 
+#include <array>
 #include <memory>
 #include <new>
 #else
@@ -12,9 +13,6 @@
 
 namespace metamer::lutgen {
 namespace {
-
-/// As OpenEXR has packed since 3.1.3.
-constexpr int kLevel = 4;
 
 #ifdef METAMER_HAS_LIBDEFLATE
 
@@ -34,8 +32,12 @@ bool inflateInto(std::string_view packed, std::string& bytes) {
 }
 
 /// 0 where they do not fit.
-std::size_t deflateInto(const std::string& bytes, std::string& packed) {
-  thread_local const std::unique_ptr<libdeflate_compressor, Free> tool(libdeflate_alloc_compressor(kLevel));
+std::size_t deflateInto(const std::string& bytes, std::string& packed, int level) {
+  thread_local std::array<std::unique_ptr<libdeflate_compressor, Free>, 10> tools;
+  auto& tool = tools.at(static_cast<std::size_t>(level));
+  if (!tool) {
+    tool.reset(libdeflate_alloc_compressor(level));
+  }
   if (!tool) {
     throw std::bad_alloc();
   }
@@ -52,10 +54,10 @@ bool inflateInto(std::string_view packed, std::string& bytes) {
 }
 
 /// 0 where they do not fit.
-std::size_t deflateInto(const std::string& bytes, std::string& packed) {
+std::size_t deflateInto(const std::string& bytes, std::string& packed, int level) {
   auto size = static_cast<uLongf>(packed.size());
   return compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                   static_cast<uLong>(bytes.size()), kLevel) == Z_OK
+                   static_cast<uLong>(bytes.size()), level) == Z_OK
              ? size
              : 0;
 }
@@ -85,7 +87,7 @@ std::string unzippedBlock(std::string_view packed, std::size_t size) {
   return block;
 }
 
-std::string zippedBlock(std::string_view block) {
+std::string zippedBlock(std::string_view block, int level) {
   thread_local std::string differences;
   thread_local std::string packed;
   const std::size_t size = block.size();
@@ -108,7 +110,7 @@ std::string zippedBlock(std::string_view block) {
     before = here;
   }
   packed.resize(size - 1);
-  const std::size_t packedSize = deflateInto(differences, packed);
+  const std::size_t packedSize = deflateInto(differences, packed, level);
   return packedSize == 0 ? std::string(block) : packed.substr(0, packedSize);
 }
 

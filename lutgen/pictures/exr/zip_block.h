@@ -12,7 +12,13 @@ namespace metamer::lutgen {
 /// @return empty where the bytes are damaged
 std::string unzippedBlock(std::string_view packed, std::size_t size);
 
+/// As OpenEXR has packed since 3.1.3.
+inline constexpr int kUsualZipLevel = 4;
+/// A third less time, and of many channels that are alike hardly more bytes.
+inline constexpr int kFastZipLevel = 1;
+
 /// The bytes as they are where packing does not make them fewer.
-std::string zippedBlock(std::string_view block);
+/// @param level  of deflate, 1 ... 9
+std::string zippedBlock(std::string_view block, int level = kUsualZipLevel);
 
 }  // namespace metamer::lutgen

@@ -32,14 +32,27 @@ void Uplift::spectra(std::span<const double> rgb, std::span<double> spectra) con
   requireAsMany("rgb", static_cast<std::int64_t>(rgb.size()), "three a colour", static_cast<std::int64_t>(3 * colours));
   requireAsMany("spectra", static_cast<std::int64_t>(spectra.size()), "colours times wavelengths",
                 static_cast<std::int64_t>(colours * size));
-  for (std::size_t i = 0; i < colours; ++i) {
-    const Eigen::Vector3d colour(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]);
-    double* const spectrum = spectra.data() + i * size;
-    if (colour.allFinite()) {
-      spectrumOf(colour, spectrum);
-    } else {
-      std::fill_n(spectrum, size, std::numeric_limits<double>::quiet_NaN());
+  const auto isFinite = [&](std::size_t i) {
+    return std::isfinite(rgb[3 * i]) && std::isfinite(rgb[3 * i + 1]) && std::isfinite(rgb[3 * i + 2]);
+  };
+  for (std::size_t i = 0; i < colours;) {
+    std::size_t end = i;
+    while (end < colours && isFinite(end)) {
+      ++end;
     }
+    if (end > i) {
+      spectraOf(rgb.subspan(3 * i, 3 * (end - i)), spectra.data() + i * size);
+      i = end;
+    } else {
+      std::fill_n(spectra.data() + i * size, size, std::numeric_limits<double>::quiet_NaN());
+      ++i;
+    }
+  }
+}
+
+void Uplift::spectraOf(std::span<const double> rgb, double* spectra) const {
+  for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+    spectrumOf({rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]}, spectra + i * m_wavelengthsNm.size());
   }
 }
 

@@ -13,7 +13,7 @@
 
 namespace metamer::spectral {
 
-/// A published way from a colour to a reflectance.
+/// A published way from a colour to a reflectance. metamer's own: sip/scene_uplift.h.
 enum class UpliftMethod {
   Smits,       ///< Smits 1999: sums of seven curves; linear on six cones
   Mallett,     ///< Mallett and Yuksel 2019: sums of three curves; linear
@@ -32,7 +32,7 @@ UpliftMethod upliftMethodNamed(const std::string& name);
 /// = 1.
 using UpliftWeights = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// One method, ready for colours: immutable, safe to share between threads.
+/// One way from colours to reflectances, ready: immutable, safe to share between threads.
 ///
 /// A colour is linear RGB with Rec.709's primaries, (1, 1, 1) the perfect reflector under D65. A spectrum is
 /// reflectance at wavelengthsNm(), linear between them, its end values held outside. docs/uplift.md says for each
@@ -62,6 +62,8 @@ class Uplift {
  private:
   /// The spectrum of one finite colour.
   virtual void spectrumOf(const Eigen::Vector3d& rgb, double* spectrum) const = 0;
+  /// Of several, for methods that solve many at once for less; the same to rounding.
+  virtual void spectraOf(std::span<const double> rgb, double* spectra) const;
 
   std::vector<double> m_wavelengthsNm;
   Eigen::Matrix3d m_xyzFromRgb;

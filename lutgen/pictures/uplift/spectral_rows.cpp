@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "uplift/spectral_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "metamer/spectral/formatted.h"
+
+namespace metamer::lutgen {
+namespace {
+
+/// Pixels at a time: their spectra stay in the cache.
+constexpr std::size_t kTogether = 64;
+/// Beyond rounding.
+constexpr double kSlack = 1e-4;
+
+bool isPremultiplied(float alpha) {
+  return alpha > 0 && alpha < 1;
+}
+
+}  // namespace
+
+std::string reflectanceChannel(double nm) {
+  std::string name = spectral::formatted("T.%.6fnm", nm);
+  name[name.find('.', 2)] = ',';
+  return name;
+}
+
+SpectralRows::SpectralRows(const spectral::Uplift& uplift, PixelFunction toRec709, const std::vector<int>& wavelengths)
+    : m_uplift(uplift), m_toRec709(std::move(toRec709)) {
+  const std::vector<double>& own = uplift.wavelengthsNm();
+  for (const int nm : wavelengths) {
+    const double inside = std::clamp<double>(nm, own.front(), own.back());
+    const auto above = std::upper_bound(own.begin() + 1, own.end() - 1, inside);
+    const auto index = static_cast<std::size_t>(above - own.begin()) - 1;
+    m_places.push_back({index, static_cast<float>((inside - own[index]) / (own[index + 1] - own[index]))});
+  }
+}
+
+void SpectralRows::count(const double* spectrum) {
+  const Eigen::Map<const Eigen::ArrayXd> values(spectrum, static_cast<Eigen::Index>(m_uplift.wavelengthsNm().size()));
+  if (std::isnan(values[0])) {
+    ++m_noNumbers;
+    return;
+  }
+  if (values.minCoeff() < -kSlack) {
+    ++m_below;
+  }
+  if (values.maxCoeff() > 1 + kSlack) {
+    ++m_above;
+  }
+}
+
+void SpectralRows::spectra(std::span<const float> rgb, std::span<const float> alpha, std::span<float> spectra) {
+  const std::size_t width = rgb.size() / 3;
+  const std::size_t bands = m_uplift.wavelengthsNm().size();
+  std::vector<float> rgba(4 * kTogether, 1.0F);
+  std::vector<double> colours(3 * kTogether);
+  std::vector<double> found(bands * kTogether);
+  for (std::size_t first = 0; first < width; first += kTogether) {
+    const std::size_t count = std::min(kTogether, width - first);
+    const auto scaleOf = [&](std::size_t i) {
+      return !alpha.empty() && isPremultiplied(alpha[first + i]) ? alpha[first + i] : 1.0F;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        rgba[4 * i + k] = rgb[3 * (first + i) + k] / scaleOf(i);
+      }
+    }
+    if (m_toRec709) {
+      m_toRec709(std::span(rgba).first(4 * count));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      std::copy_n(&rgba[4 * i], 3, &colours[3 * i]);
+    }
+    m_uplift.spectra(std::span(colours).first(3 * count), std::span(found).first(bands * count));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double* const spectrum = &found[bands * i];
+      this->count(spectrum);
+      for (std::size_t band = 0; band < m_places.size(); ++band) {
+        const auto [index, share] = m_places[band];
+        const auto here = static_cast<float>(spectrum[index]);
+        const auto next = static_cast<float>(spectrum[index + 1]);
+        spectra[band * width + first + i] = (here + share * (next - here)) * scaleOf(i);
+      }
+    }
+  }
+}
+
+}  // namespace metamer::lutgen
