@@ -23,6 +23,8 @@ BOUND_PRICE = 0.2
 # The kernel's reach in standard deviations, and the noise of samples over its 1: twice that at a mean of DARK.
 REACH, NOISE, SKIN_NOISE, DARK = 2.0, 0.2, 0.1, 0.05
 LEAST_VARIANCE = 1e-4
+# Samples that stand for all.
+SEEDS = 160
 TWIN_RMS = 0.02
 # Up, down and aside, of a colour's luminance (aside: or an eighth of X or Z), and the most that they are raised to.
 LEAST_REACH = np.array([3.0, 0.8, 4.0])
@@ -202,8 +204,27 @@ class MeasuredScene:
         self.places = self.place(responses)
         deviations = (samples - responses @ smooth.unclamped.T) / responses.mean(axis=1, keepdims=True)
         noise = noise * (1.0 + (DARK / responses.mean(axis=1)) ** 2)
-        kernel = self.kernel(self.places) + np.diag(noise)
-        self.coefficients = np.linalg.solve(kernel, deviations)
+        seeds = self.seeds()
+        taken = self.kernel(self.places)[:, seeds]
+        # In features whose sum of squares is the roughness of a sum of seeds. The first is the perfect reflector's,
+        # whose deviation is zero.
+        triangle = np.linalg.cholesky(taken[seeds])
+        features = np.linalg.solve(triangle, taken.T).T[1:, 1:]
+        fit = features.T / noise[1:]
+        shares = np.linalg.solve(fit @ features + np.eye(len(seeds) - 1), fit @ deviations[1:])
+        self.places = self.places[seeds]
+        self.coefficients = np.linalg.solve(triangle.T, np.vstack([np.zeros((1, shares.shape[1])), shares]))
+
+    def seeds(self) -> list[int]:
+        """Return the samples that stand for all: the perfect reflector, then always the one least said by those before."""
+        kernel = self.kernel(self.places)
+        chosen = [0]
+        while len(chosen) < SEEDS:
+            said = np.linalg.solve(kernel[np.ix_(chosen, chosen)], kernel[chosen])
+            unsaid = 1.0 - np.sum(kernel[chosen] * said, axis=0)
+            unsaid[chosen] = 0.0
+            chosen.append(int(np.argmax(unsaid)))
+        return chosen
 
     def place(self, responses: np.ndarray) -> np.ndarray:
         """Return the whitened chromaticities of responses (n x 3)."""

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "scenes/leading_places.h"
 #include "scenes/node_bands.h"
-#include "scenes/sample_kernel.h"
 
 namespace metamer::sip {
 
@@ -36,6 +36,33 @@ std::array<Index, 3> alongSpectrum(const Eigen::Matrix3Xd& weights) {
   return order;
 }
 
+/// How much of each feature the targets take: the first samples' features so that they are met, the others' so that
+/// what remains is met as nearly as its noise says.
+/// @param exact      samples that are met; the first
+/// @param precision  of the others: 1 / noise
+Eigen::MatrixXd featuresTaken(const LeadingPlaces& leading, Index exact, const Eigen::MatrixXd& targets,
+                              const Eigen::VectorXd& precision) {
+  const auto count = static_cast<Index>(leading.chosen.size());
+  const auto met = static_cast<Index>(
+      std::count_if(leading.chosen.begin(), leading.chosen.end(), [&](Index sample) { return sample < exact; }));
+  const std::vector<Index> first(leading.chosen.begin(), leading.chosen.begin() + met);
+  Eigen::MatrixXd taken(count, targets.cols());
+  taken.topRows(met) = leading.features(first, Eigen::seqN(0, met))
+                           .eval()
+                           .triangularView<Eigen::Lower>()
+                           .solve(targets(first, Eigen::all).eval());
+  const Index others = precision.size();
+  const Eigen::MatrixXd rest =
+      targets.bottomRows(others) - leading.features.bottomLeftCorner(others, met) * taken.topRows(met);
+  const Eigen::MatrixXd weighted =
+      precision.cwiseSqrt().asDiagonal() * leading.features.bottomRightCorner(others, count - met);
+  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(count - met, count - met);
+  system.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
+  taken.bottomRows(count - met) = system.selfadjointView<Eigen::Lower>().llt().solve(
+      weighted.transpose() * (precision.cwiseSqrt().asDiagonal() * rest));
+  return taken;
+}
+
 }  // namespace
 
 MeasuredSeeds::MeasuredSeeds(const Eigen::Matrix3Xd& weights, const Eigen::MatrixXd& reflectances,
@@ -47,10 +74,17 @@ MeasuredSeeds::MeasuredSeeds(const Eigen::Matrix3Xd& weights, const Eigen::Matri
   differences.col(middle).setConstant(-1.0);
 
   const Eigen::Matrix3Xd all = NodeBands(kNodeCount, weights.cols()).nodeWeights(weights) * reflectances;
+  // What is to be met exactly comes first, behind the perfect reflector.
   std::vector<Index> used;
-  for (Index i = 0; i < all.cols(); ++i) {
-    if (all.col(i).mean() >= kDarkest) {
-      used.push_back(i);
+  Index exact = 1;
+  for (const bool isExact : {true, false}) {
+    for (Index i = 0; i < all.cols(); ++i) {
+      if ((noise[i] == 0.0) == isExact && all.col(i).mean() >= kDarkest) {
+        used.push_back(i);
+      }
+    }
+    if (isExact) {
+      exact += static_cast<Index>(used.size());
     }
   }
   const Eigen::Matrix3Xd responses = all(Eigen::all, used);
@@ -66,28 +100,28 @@ MeasuredSeeds::MeasuredSeeds(const Eigen::Matrix3Xd& weights, const Eigen::Matri
       axes.eigenvectors() * axes.eigenvalues().cwiseMax(kLeastVariance).cwiseSqrt().cwiseInverse().asDiagonal() *
       axes.eigenvectors().transpose();
   differences = kInverseReach * whitening * differences;
-  // The perfect reflector comes last: no difference between its channels, and no deviation.
-  places.resize(count + 1, 2);
-  places.topRows(count) = kInverseReach * (whitening * unscaled).transpose().array();
-  places.row(count).setZero();
-
-  // The perfect reflector deviates by nothing, and so may stand as nothing.
+  // The perfect reflector: no difference between its channels, and no deviation, so that it may stand as nothing.
+  Eigen::ArrayX2d samples(count + 1, 2);
+  samples.row(0).setZero();
+  samples.bottomRows(count) = kInverseReach * (whitening * unscaled).transpose().array();
   Eigen::MatrixXd targets = Eigen::MatrixXd::Zero(count + 1, kNodeCount + 3);
-  targets.topLeftCorner(count, kNodeCount) =
+  targets.bottomLeftCorner(count, kNodeCount) =
       (reflectances(Eigen::all, used).array().rowwise() / means.array()).matrix().transpose();
-  targets.topRightCorner(count, 3) = (responses.array().rowwise() / means.array()).matrix().transpose();
-  const SampleKernel samples(places);
-  Eigen::MatrixXd kernel(count + 1, count + 1);
-  for (Index i = 0; i <= count; ++i) {
-    kernel.col(i) = samples.values(places.row(i).transpose()).head(count + 1);
-    if (i < count) {
-      const double dark = kDarkNoise / means[i];
-      kernel(i, i) += noise[used[static_cast<std::size_t>(i)]] * (1.0 + dark * dark);
-    }
+  targets.bottomRightCorner(count, 3) = (responses.array().rowwise() / means.array()).matrix().transpose();
+  Eigen::VectorXd precision(count + 1 - exact);
+  for (Index i = 0; i < precision.size(); ++i) {
+    const Index sample = exact - 1 + i;
+    const double dark = kDarkNoise / means[sample];
+    precision[i] = 1.0 / (noise[used[static_cast<std::size_t>(sample)]] * (1.0 + dark * dark));
   }
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factored(kernel);
-  factored.solveInPlace(targets);
-  solved = targets.transpose();
+
+  const LeadingPlaces leading(samples, exact, kMostSeeds);
+  places = samples(leading.chosen, Eigen::all);
+  solved = leading.features(leading.chosen, Eigen::all)
+               .transpose()
+               .triangularView<Eigen::Upper>()
+               .solve(featuresTaken(leading, exact, targets, precision))
+               .transpose();
 }
 
 }  // namespace metamer::sip

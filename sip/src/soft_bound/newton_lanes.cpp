@@ -41,6 +41,10 @@ class Rounds {
       m_held[k] = given(m_lanes.held, k);
       m_multiplier[k] = zero();
     }
+    m_most = m_mostWrong = m_clamped = zero();
+    for (int b = 0; b < m_count; ++b) {
+      m_clamped = hn::Add(m_clamped, given(m_lanes.clamp, b));
+    }
     if constexpr (kHasPrior) {
       for (int b = 0; b < m_count; ++b) {
         V bend = zero();
@@ -225,22 +229,21 @@ class Rounds {
         right = hn::Mul(right, at(m_inverse, last - b));
       }
     }
+    m_most = m_mostWrong = zero();
     left = right = hn::Mul(hn::Add(hn::Add(load(m_middle), left), right), at(m_inverse, m_middle));
-    put(m_next, m_middle, left);
+    propose(m_middle, left);
     for (int b = m_middle - 1; b >= 0; --b) {
       left = hn::Mul(hn::Add(at(m_next, b), left), at(m_inverse, b));
-      put(m_next, b, left);
+      propose(b, left);
       if (last - b > m_middle) {
         right = hn::Mul(hn::Add(at(m_next, last - b), right), at(m_inverse, last - b));
-        put(m_next, last - b, right);
+        propose(last - b, right);
       }
     }
-    V clamped = zero();
-    for (int b = 0; b < m_count; ++b) {
-      clamped = hn::Add(clamped, given(m_lanes.clamp, b));
-    }
-    const M isFree = hn::Eq(clamped, zero());  // for which the system has no solution of its own
+    const M isFree = hn::Eq(m_clamped, zero());  // for which the system has no solution of its own
     if (!hn::AllFalse(d, isFree)) {
+      m_most = hn::IfThenZeroElse(isFree, m_most);
+      m_mostWrong = hn::IfThenZeroElse(isFree, m_mostWrong);
       for (int b = 0; b < m_count; ++b) {
         V smooth = zero();
         for (int k = 0; k < 3; ++k) {
@@ -249,26 +252,23 @@ class Rounds {
         if constexpr (kHasPrior) {
           smooth = hn::Add(smooth, given(m_lanes.prior, b));
         }
-        put(m_next, b, hn::IfThenElse(isFree, smooth, at(m_next, b)));
+        propose(b, hn::IfThenElse(isFree, smooth, at(m_next, b)));
       }
     }
   }
 
-  /// Where the bands below zero are those of the guess.
-  M guessHolds() const {
-    V most = zero();
-    for (int b = 0; b < m_count; ++b) {
-      most = hn::Max(most, hn::Abs(at(m_next, b)));
-    }
-    const V nothing = hn::Mul(hn::Set(d, kNothing), most);
-    M fails = hn::Gt(zero(), one());
-    for (int b = 0; b < m_count; ++b) {
-      const V value = at(m_next, b);
-      const M differs = hn::Xor(hn::Lt(value, zero()), hn::Gt(given(m_lanes.clamp, b), zero()));
-      fails = hn::Or(fails, hn::And(differs, hn::Gt(hn::Abs(value), nothing)));
-    }
-    return hn::Not(fails);
+  /// A band of the spectrum of the guess, and how large it is: among all bands, and among those that are on the other
+  /// side of zero than guessed.
+  HWY_INLINE void propose(int band, V value) {
+    put(m_next, band, value);
+    const V size = hn::Abs(value);
+    const M isWrong = hn::Xor(hn::Lt(value, zero()), hn::Gt(given(m_lanes.clamp, band), zero()));
+    m_most = hn::Max(m_most, size);
+    m_mostWrong = hn::Max(m_mostWrong, hn::IfThenElseZero(isWrong, size));
   }
+
+  /// Where the bands below zero are those of the guess.
+  M guessHolds() const { return hn::Not(hn::Gt(m_mostWrong, hn::Mul(hn::Set(d, kNothing), m_most))); }
 
   /// Of lanes that are to go part of the way from where they are; the others go to m_next.
   HWY_INLINE V between(int band, V step, M partly) const {
@@ -315,11 +315,13 @@ class Rounds {
   void advance(M active, M goesOn, V step) {
     const M partly = hn::Lt(step, one());
     const V price = hn::Set(d, m_system.price);
+    m_clamped = zero();
     for (int b = 0; b < m_count; ++b) {
       const V value = hn::IfThenElse(active, between(b, step, partly), given(m_lanes.spectrum, b));
       take(m_lanes.spectrum, b, value);
-      const V clamp = hn::IfThenElseZero(hn::Lt(value, zero()), price);
-      take(m_lanes.clamp, b, hn::IfThenElse(goesOn, clamp, given(m_lanes.clamp, b)));
+      const V clamp = hn::IfThenElse(goesOn, hn::IfThenElseZero(hn::Lt(value, zero()), price), given(m_lanes.clamp, b));
+      take(m_lanes.clamp, b, clamp);
+      m_clamped = hn::Add(m_clamped, clamp);
     }
   }
 
@@ -333,6 +335,9 @@ class Rounds {
   std::array<V, 3> m_multiplier;
   std::array<V, 6> m_seen;
   std::array<V, 3> m_seenBend;
+  V m_clamped;    ///< sum of the guess's clamps
+  V m_most;       ///< largest |m_next|
+  V m_mostWrong;  ///< of the bands that are not as guessed
   Scratch<kConvergedBandCount> m_bend;
   Scratch<kConvergedBandCount> m_inverse;
   Scratch<kConvergedBandCount> m_next;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -125,6 +126,52 @@ TEST(MeasuredSceneTest, ASampleWithoutNoiseIsMetExactly) {
       EXPECT_GT(missed, 1e-3) << light << " " << i;
       EXPECT_LT(missed, (smooth - own).norm()) << light << " " << i;
     }
+  }
+}
+
+/// The Gaussian process with all samples, by dense algebra: kernels of a place with white and the samples, solved.
+Eigen::VectorXd deviationByAll(const MeasuredSeeds& seeds, const SoftBoundSolver& solver,
+                               const Eigen::MatrixXd& reflectances, const Vector3d& response) {
+  const Eigen::Index count = reflectances.cols();
+  Eigen::Matrix3Xd responses(3, count + 1);
+  responses << Vector3d::Ones(), solver.weights() * reflectances;
+  const Eigen::RowVectorXd means = responses.colwise().mean();
+  const Eigen::ArrayX2d places = ((seeds.differences * responses).array().rowwise() / means.array()).transpose();
+  const SampleKernel kernel(places);
+  Eigen::MatrixXd system(count + 1, count + 1);
+  for (Eigen::Index i = 0; i <= count; ++i) {
+    system.col(i) = kernel.values(places.row(i).transpose()).head(count + 1);
+    const double dark = 0.05 / means[i];
+    system(i, i) += i == 0 ? 0.0 : 0.2 * (1.0 + dark * dark);
+  }
+  Eigen::MatrixXd deviations = Eigen::MatrixXd::Zero(kBands, count + 1);
+  deviations.rightCols(count) = reflectances - solver.unclamped() * responses.rightCols(count);
+  const Eigen::VectorXd at = kernel.values(seeds.differences * response / response.mean()).head(count + 1);
+  const Eigen::VectorXd weights = system.ldlt().solve(at);
+  return response.mean() * (deviations.array().rowwise() / means.array()).matrix() * weights;
+}
+
+TEST(MeasuredSceneTest, FewSamplesStandForThemselvesAndSomeOfManyForAll) {
+  for (const char* const light : {"D65", "HP1"}) {
+    const ChartScene chart(light);
+    const MeasuredSeeds own(chart.solver.weights(), chart.reflectances, Eigen::VectorXd::Constant(24, 0.2));
+    ASSERT_EQ(own.places.rows(), 25);
+    const Eigen::MatrixXd many = onBands(samplesOf("rawtoaces 190"), kBands);
+    const Eigen::VectorXd noise = Eigen::VectorXd::Constant(many.cols(), 0.2);
+    const MeasuredSeeds seeds(chart.solver.weights(), many, noise);
+    ASSERT_EQ(seeds.places.rows(), MeasuredSeeds::kMostSeeds);
+    const MeasuredScene scene(chart.solver, seeds);
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < chart.reflectances.cols(); ++i) {
+      const Vector3d response = chart.response(i);
+      const Eigen::VectorXd exact = deviationByAll(own, chart.solver, chart.reflectances, response);
+      EXPECT_LE((chart.scene.deviation(response) - exact).norm(), 1e-11) << light << " " << i;
+      const Eigen::VectorXd byAll = deviationByAll(seeds, chart.solver, many, response);
+      EXPECT_GT(byAll.norm(), 1e-4);
+      largest = std::max(largest, (scene.deviation(response) - byAll).norm() / byAll.norm());
+    }
+    std::printf("[ scene ] %s: seeds differ from all samples by up to %.4f of the deviation\n", light, largest);
+    EXPECT_LE(largest, 0.05) << light;
   }
 }
 
