@@ -191,7 +191,9 @@ void addBake(CLI::App& application) {
                                           "LUT file to write in another format, in place of a recipe; may be repeated");
   luts->expected(1)->take_all()->excludes(recipe);
   command->add_option("--iconfig", arguments->config, "Config in place of the one in $OCIO")->excludes(luts);
-  command->add_option("--shaper,--shaperspace", arguments->shaper, "Log curve of .cube and .clf; ACEScct by default");
+  command->add_option(
+      "--shaper,--shaperspace", arguments->shaper,
+      "Curve of .cube and its like: a camera's log, ACEScct by default, or a display's: sRGB, Rec.1886, \"Gamma 2.4\"");
   addOverrides(*command, arguments->overrides);
   command->callback([arguments] { bake(*arguments); });
 }

@@ -5,6 +5,9 @@ import json
 import os
 import unittest
 
+import numpy as np
+import OpenEXR
+
 from lutgen import LutgenTest, lutgen
 
 DAY_TO_TUNGSTEN = ["--illuminant-in", "D65", "--illuminant-out", "A"]
@@ -238,6 +241,40 @@ class Bake(LutgenTest):
         self.assertEqual(certificate["recipe"]["scene"], {"kind": "skin", "strength": 0.5, "fade": 2.5})
         self.assertNotIn(str(self.folder), (self.folder / "a.cube.json").read_text())
 
+    def test_display_shaper(self):
+        """A sampled table's nodes are display signals of what the engine makes of the light of theirs."""
+        curves = {
+            "sRGB": (lambda s: np.where(s <= 0.04045, s / 12.92, ((s + 0.055) / 1.055) ** 2.4),
+                     lambda x: np.where(abs(x) <= 0.0031308, 12.92 * x, np.sign(x) * (1.055 * abs(x) ** (1 / 2.4) - 0.055))),
+            "Rec.1886": (lambda s: s**2.4, lambda x: np.sign(x) * abs(x) ** (1 / 2.4)),
+        }
+        side = np.linspace(0, 1, 5)
+        nodes = np.stack(np.meshgrid(side, side, side, indexing="ij"), -1)[..., ::-1].reshape(-1, 3)
+        for name, (decode, encode) in curves.items():
+            with self.subTest(name):
+                self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--space", "Rec.709", "--shaper", name, "--sampled", "--size", 5,
+                                 "-o", "a.cube")
+                certificate = json.loads((self.folder / "a.cube.json").read_text())
+                self.assertEqual(certificate["transform"]["shaper"], name)
+                self.assertEqual(certificate["range"]["largest_component"], 1)
+                self.assertNotIn("notes", certificate)
+                lines = (self.folder / "a.cube").read_text().splitlines()
+                table = np.array([line.split() for line in lines if line[:1] in "-0123456789" and line], float)
+                OpenEXR.File({}, {"RGB": decode(nodes)[None].astype(np.float32)}).write(str(self.folder / "a.exr"))
+                (self.folder / "a.yaml").write_text(
+                    "metamer: 1\nname: a\nspace: Rec.709\ninput: {illuminant: D65}\noutput: {illuminant: A}\n")
+                self.assertWorks("apply", "a.yaml", "a.exr", "b.exr", "--picture-space", "Rec.709")
+                light = OpenEXR.File(str(self.folder / "b.exr")).channels()["RGB"].pixels[0].astype(float)
+                # Bands: 161 in a table, 401 in apply.
+                np.testing.assert_allclose(table, encode(light), atol=2e-3)
+        # A fitted table keeps within what its sampled figures allow, and says so.
+        self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--space", "Rec.709", "--shaper", "sRGB", "-o", "a.cube")
+        self.assertLess(json.loads((self.folder / "a.cube.json").read_text())["error"]["p99"], 1)
+        self.assertIn("passed", self.assertWorks("compare", "a.yaml", "a.cube"))
+        run = lutgen("bake", *DAY_TO_TUNGSTEN, "--shaper", "gamma 2.2", "--size", 5, "-o", "a.cube", folder=self.folder)
+        self.assertIn("note: the signals are ACEScg by the curve Gamma 2.2", run.stderr)
+        self.assertFails("bake", *DAY_TO_TUNGSTEN, "--shaper", "sRGB", "-o", "b.clf", says=["shaper 'sRGB'", "linear", ".cube"])
+
     def test_bad_input_is_named(self):
         (self.folder / "zero.csv").write_text("nm,transmittance\n380,0\n780,0\n")
         (self.folder / "bad.yaml").write_text(RECIPE.replace("illuminant: HP1", "illuminant: HP9"))
@@ -254,7 +291,7 @@ class Bake(LutgenTest):
             ([*DAY_TO_TUNGSTEN, "--observer-in", "CIE 1931 3"], ["observer 'CIE 1931 3'", "CIE 1931 2"]),
             ([*DAY_TO_TUNGSTEN, "--space", "ACEScgg"], ["space 'ACEScgg'", "ACEScg"]),
             ([*DAY_TO_TUNGSTEN, "--shaper", "log"], ["shaper 'log'", "ACEScct"]),
-            ([*DAY_TO_TUNGSTEN, "--shaper", "linear"], ["shaper 'linear'", "is no logarithm", "ACEScct"]),
+            ([*DAY_TO_TUNGSTEN, "--shaper", "linear"], ["shaper 'linear'", "is no curve", "ACEScct"]),
             (["--illuminant-in", "FL99", "--illuminant-out", "A"], ["illuminant 'FL99'", "FL9"]),
             ([*DAY_TO_TUNGSTEN, "--scene", "dataset:nothing"], ["nothing", "list reflectances"]),
         ]:

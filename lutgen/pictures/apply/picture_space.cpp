@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apply/display_curve.h"
+#include "metamer/ocio/display_curve.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/working_space.h"
 #include "metamer/spectral/chromatic_adaptation.h"
@@ -36,7 +36,7 @@ PixelFunction eachColour(const std::function<double(double)>& curve) {
   };
 }
 
-PictureSpace displaySpace(const std::string& name, const DisplayCurve& curve, const spectral::RgbSpace& linear) {
+PictureSpace displaySpace(const std::string& name, const ocio::DisplayCurve& curve, const spectral::RgbSpace& linear) {
   return {name, linear, eachColour([curve](double signal) { return curve.decoded(signal); }),
           eachColour([curve](double light) { return curve.encoded(light); })};
 }
@@ -89,7 +89,7 @@ PictureSpace fromChromaticities(const std::array<float, 8>& xy, const std::strin
 
 PictureSpace pictureSpaceNamed(const std::string& name, const std::string& field, const spectral::DataLibrary& library,
                                const ocio::ConfigSource& config) {
-  if (const auto curve = displayCurveNamed(name)) {
+  if (const auto curve = ocio::displayCurveNamed(name)) {
     return displaySpace(name, *curve, library.colourSpace("Rec.709").linear);
   }
   try {
@@ -123,7 +123,7 @@ std::optional<PictureSpace> pictureSpaceOf(const SpaceClues& clues, const std::s
   if (const std::string name = spaceNamedInFile(named); !name.empty()) {
     return known(name);
   }
-  if (const auto curve = named.rfind("gamma", 0) == 0 ? displayCurveNamed(named) : std::nullopt) {
+  if (const auto curve = named.rfind("gamma", 0) == 0 ? ocio::displayCurveNamed(named) : std::nullopt) {
     return displaySpace("Gamma " + spectral::numberText(*curve->gamma), *curve, library.colourSpace("Rec.709").linear);
   }
   if (named == "kodaklog" || named == "adx" || named == "log") {

@@ -309,7 +309,7 @@ void addCompare(CLI::App& application) {
       "--space", arguments->space,
       "What the pixels are, of pictures and of LUT files without a certificate; the recipe's or ACEScg");
   command->add_option("--shaper", arguments->shaper,
-                      "Log curve of LUT files without a certificate; ACEScct by default, none for .ctf and .clf");
+                      "Curve of LUT files without a certificate; ACEScct by default, none for .ctf and .clf");
   command->callback([arguments] { compare(*arguments); });
 }
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apply/display_curve.h"
 #include "apply/picture_clues.h"
+#include "metamer/ocio/display_curve.h"
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/formatted.h"
 #include "picture.h"
@@ -110,7 +110,7 @@ void writeSkinChart(const SkinChart& chart, const spectral::RgbSpace& space, int
   if (isSpectral) {
     spec.attribute("spectralLayoutVersion", "1.0");
   }
-  const auto curve = displayCurveNamed("sRGB");
+  const auto curve = ocio::displayCurveNamed("sRGB");
   const bool isEncoded = isSrgbFormat(formatOf(file));
   OIIO::ImageBuf pixels(spec);
   std::vector<float> values(names.size());

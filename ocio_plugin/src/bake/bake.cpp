@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -61,6 +62,7 @@ class Baking {
         m_options(options),
         m_prepared(prepare(recipe, library, options)),
         m_probes(probesOf(format, m_prepared, options)) {
+    requireSignal(format, options);
     const auto chart = library.reflectances(sip::ErrorProtocol::kChart).samples;
     const auto pixels = library.certificatePixels();
     parallelFor(2, [&](int judge) {
@@ -71,6 +73,7 @@ class Baking {
       }
     });
     m_certificate = newCertificate(recipe, library, m_prepared, *m_protocol);
+    noteDisplay();
     m_certificate.probes = m_probes;
     m_certificate.brightening = m_pixels->brightening();
     tell(kPreparedShare);
@@ -104,6 +107,8 @@ class Baking {
 
  private:
   void choose();
+  /// A display's curve over the primaries of no display is right, but seldom what was meant.
+  void noteDisplay();
   void tell(double share) const {
     if (m_options.progress) {
       m_options.progress(share);
@@ -119,6 +124,16 @@ class Baking {
   Certificate m_certificate;
   Operators m_operators;
 };
+
+void Baking::noteDisplay() {
+  constexpr std::array kDisplays = {"Rec.709", "Rec.2020", "P3-D65"};
+  const std::string& space = m_prepared.space.engine.name;
+  if (m_options.shaper && isDisplay(*m_options.shaper) &&
+      std::find(kDisplays.begin(), kDisplays.end(), space) == kDisplays.end()) {
+    m_certificate.notes.push_back("the signals are " + space + " by the curve " + nameOf(*m_options.shaper) +
+                                  "; for a timeline in Rec.709 add --space Rec.709");
+  }
+}
 
 void Baking::choose() {
   const bool isIdentity = m_prepared.transform.isIdentity();

@@ -19,11 +19,11 @@ using spectral::InputError;
 /// Bands of the engine behind a baked transform: p99 within 0.13 CIEDE2000 of 401 bands on spiky lamps, 0.05 on others.
 constexpr int kBakeBandCount = 161;
 
-/// The log curve of a cube's signal: the space's own, else the shaper.
-spectral::LogEncoding cubeEncoding(const WorkingSpace& space, const BakeOptions& options) {
+/// The curve of a cube's signal: the space's own, else the shaper.
+Shaper cubeShaper(const WorkingSpace& space, const BakeOptions& options) {
   if (space.encoding) {
-    if (options.shaper && *options.shaper != *space.encoding) {
-      throw InputError("", "shaper", spectral::nameOf(*options.shaper),
+    if (options.shaper && *options.shaper != Shaper(*space.encoding)) {
+      throw InputError("", "shaper", nameOf(*options.shaper),
                        space.name + " is a log space already; leave the shaper out");
     }
     return *space.encoding;
@@ -32,15 +32,23 @@ spectral::LogEncoding cubeEncoding(const WorkingSpace& space, const BakeOptions&
 }
 
 /// The signal of a cube: the space's own pixels where they are a log signal, else those through the shaper.
-Signal cubeSignal(const WorkingSpace& space, spectral::LogEncoding encoding) {
+Signal cubeSignal(const WorkingSpace& space, const Shaper& shaper) {
   if (space.isLog) {
     return {space.toEngine, space.fromEngine};
   }
-  return {chained({shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE), space.toEngine}),
-          chained({space.fromEngine, shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD)})};
+  return {chained({shaperTransform(shaper, OCIO::TRANSFORM_DIR_INVERSE), space.toEngine}),
+          chained({space.fromEngine, shaperTransform(shaper, OCIO::TRANSFORM_DIR_FORWARD)})};
 }
 
 }  // namespace
+
+void requireSignal(const LutFormat& format, const BakeOptions& options) {
+  if (options.shaper && isDisplay(*options.shaper) && format.content == LutFormat::Content::Operators) {
+    throw InputError("", "shaper", nameOf(*options.shaper),
+                     "is a display's, and " + format.extension +
+                         " takes linear pixels; write .cube or another table of signals, or leave the shaper out");
+  }
+}
 
 Prepared prepare(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options) {
   WorkingSpace space = findWorkingSpace(recipe.space, library, options.config);
@@ -81,7 +89,7 @@ sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& pr
       throw InputError("", "space", space.name,
                        "is neither linear nor log, which a table needs; name a log space, or write .ctf");
     }
-    probes = signalProbes(cubeEncoding(space, options));
+    probes = signalProbes(cubeShaper(space, options));
   }
   if (options.fullCertificate) {
     probes.chromaticityCount *= 4;
@@ -113,13 +121,14 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
     return {space.wrapped(engineOperators(representation, prepared.spec, prepared.transform, certificate.size)),
             space.fromEngine, space.toEngine};
   }
-  const spectral::LogEncoding encoding = cubeEncoding(space, options);
-  const Signal signal = cubeSignal(space, encoding);
-  certificate.shaper = space.isLog ? space.name : spectral::nameOf(encoding);
+  const Shaper shaper = cubeShaper(space, options);
+  const Signal signal = cubeSignal(space, shaper);
+  certificate.shaper = space.isLog ? space.name : nameOf(shaper);
   OCIO::GroupTransformRcPtr onSignal = chained({});
   if (representation == Representation::LogCube) {
     OCIO::ConstTransformRcPtr curve;
-    if (options.fitted && format.holdsPrelut && certificate.size >= kPrelutFromSize) {
+    // A display's signal is dense in the dark already, and needs its nodes where it is bright.
+    if (options.fitted && format.holdsPrelut && certificate.size >= kPrelutFromSize && !isDisplay(shaper)) {
       certificate.prelutSize = options.shaperSize != 0 ? options.shaperSize : kPrelutEntries;
       curve = prelut(signal, certificate.size, certificate.probes.lowestStop, certificate.prelutSize);
     }
@@ -139,8 +148,8 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
   if (isCube || space.isLog) {
     return {onSignal, signal.fromEngine, signal.toEngine};
   }
-  return {chained({shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD), onSignal,
-                   shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE)}),
+  return {chained({shaperTransform(shaper, OCIO::TRANSFORM_DIR_FORWARD), onSignal,
+                   shaperTransform(shaper, OCIO::TRANSFORM_DIR_INVERSE)}),
           space.fromEngine, space.toEngine};
 }
 

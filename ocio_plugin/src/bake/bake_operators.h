@@ -19,6 +19,9 @@ struct Prepared {
 
 Prepared prepare(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options);
 
+/// @throws spectral::InputError: a display's curve for a format whose pixels are linear, which it would end at white
+void requireSignal(const LutFormat& format, const BakeOptions& options);
+
 /// Nodes along a side: what was asked for, else what is usual. @throws spectral::InputError out of range
 int tableSize(const BakeOptions& options, Representation representation, const LutFormat& format);
 

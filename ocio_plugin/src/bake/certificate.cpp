@@ -182,6 +182,13 @@ std::string Certificate::json() const {
     }
     transform["choice"] = {{"tolerance", choice->tolerance}, {"on", "p99"}, {"tried", tried}};
   }
+  Json range = {{"gamut", gamut},
+                {"inside_gamut_only", probes.insideGamutOnly},
+                {"lowest_stop", probes.lowestStop},
+                {"highest_stop", probes.highestStop}};
+  if (std::isfinite(probes.largestComponent)) {
+    range["largest_component"] = probes.largestComponent;
+  }
   const Policy policy = policyOf(*this);
   Json document = {
       {"metamer_certificate", 1},
@@ -189,11 +196,7 @@ std::string Certificate::json() const {
       {"recipe", recipeJson(recipe)},
       {"inputs", inputList},
       {"transform", transform},
-      {"range",
-       {{"gamut", gamut},
-        {"inside_gamut_only", probes.insideGamutOnly},
-        {"lowest_stop", probes.lowestStop},
-        {"highest_stop", probes.highestStop}}},
+      {"range", range},
       {"error",
        {{"metric", "CIEDE2000"},
         {"against", "spectral engine, 401 bands"},

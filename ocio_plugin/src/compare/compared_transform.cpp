@@ -69,6 +69,7 @@ std::optional<CertifiedPixels> certifiedPixels(const std::filesystem::path& file
     pixels.probes.insideGamutOnly = range.at("inside_gamut_only").get<bool>();
     pixels.probes.lowestStop = std::clamp(range.at("lowest_stop").get<int>(), -40, 40);
     pixels.probes.highestStop = std::clamp(range.at("highest_stop").get<int>(), pixels.probes.lowestStop, 40);
+    pixels.probes.largestComponent = range.value("largest_component", pixels.probes.largestComponent);
     return pixels;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(certificate.string(), "certificate", "",
@@ -107,18 +108,18 @@ ComparedTransform comparedFile(const std::filesystem::path& file, const LutPixel
   }
   const std::string curve = certified ? certified->shaper : pixels.shaper;
   const bool hasShaper = !working.isLog && (isSignal || (!certified && !curve.empty()));
-  const auto encoding = hasShaper && !curve.empty() ? shaperFromName(curve) : spectral::LogEncoding::AcesCct;
+  const Shaper shaper = hasShaper && !curve.empty() ? shaperFromName(curve) : spectral::LogEncoding::AcesCct;
   if (certified) {
     result.probes = certified->probes;
   } else if (hasShaper || isSignal) {
-    result.probes = signalProbes(working.encoding.value_or(encoding));
+    result.probes = signalProbes(working.encoding ? Shaper(*working.encoding) : shaper);
   }
   if (hasShaper) {
-    steps.push_back(throughOcio(shaperTransform(encoding, OCIO::TRANSFORM_DIR_FORWARD)));
+    steps.push_back(throughOcio(shaperTransform(shaper, OCIO::TRANSFORM_DIR_FORWARD)));
   }
   steps.emplace_back([processor](std::span<float> rgba) { processor.apply(rgba); });
   if (hasShaper) {
-    steps.push_back(throughOcio(shaperTransform(encoding, OCIO::TRANSFORM_DIR_INVERSE)));
+    steps.push_back(throughOcio(shaperTransform(shaper, OCIO::TRANSFORM_DIR_INVERSE)));
   }
   if (working.toEngine) {
     steps.push_back(throughOcio(working.toEngine));
@@ -178,6 +179,7 @@ sip::Comparison compareTransforms(const ComparedTransform& a, const ComparedTran
                                   const spectral::RgbSpace& space, const spectral::DataLibrary& library) {
   sip::ErrorProtocol::Options options = a.probes;
   options.insideGamutOnly = a.probes.insideGamutOnly || b.probes.insideGamutOnly;
+  options.largestComponent = std::min(a.probes.largestComponent, b.probes.largestComponent);
   options.lowestStop = std::max(a.probes.lowestStop, b.probes.lowestStop);
   options.highestStop = std::max(std::min(a.probes.highestStop, b.probes.highestStop), options.lowestStop);
   const ComparedTransform first = onSpace(a, space, library);
@@ -189,7 +191,7 @@ sip::Comparison compareTransforms(const ComparedTransform& a, const ComparedTran
                                                 : sip::resolve(day, library, space);
   const sip::ErrorProtocol protocol(spec, library.reflectances(sip::ErrorProtocol::kChart).samples, options);
   return sip::compareTransforms(space, protocol.probes(), options.lowestStop, options.highestStop, first.apply,
-                                second.apply);
+                                second.apply, options.largestComponent);
 }
 
 }  // namespace metamer::ocio

@@ -79,9 +79,33 @@ double halfValue(unsigned long bits) {
   return exponent == 0 ? sign * std::ldexp(mantissa, -24) : sign * std::ldexp(1024 + mantissa, exponent - 25);
 }
 
+OCIO::TransformRcPtr displayTransform(const DisplayCurve& curve, OCIO::TransformDirection direction) {
+  // OCIO's operators are from signal to light.
+  const auto turned =
+      direction == OCIO::TRANSFORM_DIR_FORWARD ? OCIO::TRANSFORM_DIR_INVERSE : OCIO::TRANSFORM_DIR_FORWARD;
+  if (curve.gamma) {
+    auto transform = OCIO::ExponentTransform::Create();
+    transform->setValue({*curve.gamma, *curve.gamma, *curve.gamma, 1.0});
+    transform->setNegativeStyle(OCIO::NEGATIVE_MIRROR);
+    transform->setDirection(turned);
+    return transform;
+  }
+  constexpr double kExponent = 2.4;
+  constexpr double kOffset = 0.055;
+  auto transform = OCIO::ExponentWithLinearTransform::Create();
+  transform->setGamma({kExponent, kExponent, kExponent, 1.0});
+  transform->setOffset({kOffset, kOffset, kOffset, 0.0});
+  transform->setNegativeStyle(OCIO::NEGATIVE_MIRROR);
+  transform->setDirection(turned);
+  return transform;
+}
+
 }  // namespace
 
-spectral::LogEncoding shaperFromName(const std::string& name) {
+Shaper shaperFromName(const std::string& name) {
+  if (const auto curve = displayCurveNamed(name)) {
+    return *curve;
+  }
   std::vector<std::string> names;
   for (const LogEncoding encoding : spectral::allLogEncodings()) {
     names.push_back(spectral::nameOf(encoding));
@@ -89,18 +113,33 @@ spectral::LogEncoding shaperFromName(const std::string& name) {
       return encoding;
     }
   }
+  names.insert(names.end(), {"sRGB", "Rec.1886", "Gamma 2.2 (any number from 1 to 4)"});
   const std::string all = spectral::joined(names);
   const std::string asked = spectral::lowerCase(name);
   if (asked == "linear" || asked == "none" || asked == "raw") {
     throw spectral::InputError("", "shaper", name,
-                               "is no logarithm: a table over linear light has no nodes in the dark and clips above 1; "
+                               "is no curve: a table over linear light has no nodes in the dark and clips above 1; "
                                "name one of " +
                                    all);
   }
   throw spectral::InputError("", "shaper", name, "unknown; the shapers are " + all);
 }
 
-OCIO::TransformRcPtr shaperTransform(spectral::LogEncoding encoding, OCIO::TransformDirection direction) {
+std::string nameOf(const Shaper& shaper) {
+  const auto* display = std::get_if<DisplayCurve>(&shaper);
+  return display != nullptr ? display->name() : spectral::nameOf(std::get<LogEncoding>(shaper));
+}
+
+double decode(const Shaper& shaper, double signal) {
+  const auto* display = std::get_if<DisplayCurve>(&shaper);
+  return display != nullptr ? display->decoded(signal) : spectral::decode(std::get<LogEncoding>(shaper), signal);
+}
+
+OCIO::TransformRcPtr shaperTransform(const Shaper& shaper, OCIO::TransformDirection direction) {
+  if (const auto* display = std::get_if<DisplayCurve>(&shaper)) {
+    return displayTransform(*display, direction);
+  }
+  const LogEncoding encoding = std::get<LogEncoding>(shaper);
   if (const auto log = cameraLog(encoding)) {
     auto transform = OCIO::LogCameraTransform::Create({log->cut, log->cut, log->cut});
     transform->setBase(2.0);

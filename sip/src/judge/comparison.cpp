@@ -68,7 +68,7 @@ Comparison summarise(std::vector<ComparedColour> colours) {
 
 Comparison compareTransforms(const spectral::RgbSpace& space, const std::vector<ErrorProtocol::Probe>& probes,
                              int lowestStop, int highestStop, const std::function<void(std::span<float>)>& a,
-                             const std::function<void(std::span<float>)>& b) {
+                             const std::function<void(std::span<float>)>& b, double largestComponent) {
   spectral::requireWithin("lowest stop", lowestStop, -kMostStops, highestStop);
   spectral::requireWithin("highest stop", highestStop, lowestStop, kMostStops);
   const Difference difference(space);
@@ -84,6 +84,9 @@ Comparison compareTransforms(const spectral::RgbSpace& space, const std::vector<
     a(byA);
     b(byB);
     for (std::size_t i = 0; i < probes.size(); ++i) {
+      if (exposure * probes[i].rgb.maxCoeff() > largestComponent) {
+        continue;
+      }
       colours.push_back({probes[i].name, exposure * probes[i].rgb, static_cast<double>(stop),
                          difference(pixelAt(byA, i), pixelAt(byB, i), exposure)});
     }

@@ -146,7 +146,8 @@ ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<f
           continue;
         }
         const Eigen::Vector3d rgb = rgbFromXyz * spectral::xyzFromChromaticity(xy, start.y());
-        if (m_options.insideGamutOnly && rgb.minCoeff() < 0.0) {
+        if ((m_options.insideGamutOnly && rgb.minCoeff() < 0.0) ||
+            exposure * rgb.maxCoeff() > m_options.largestComponent) {
           continue;
         }
         places.push_back(xy);
@@ -194,6 +195,9 @@ ErrorProtocol::Report ErrorProtocol::compare(const std::vector<Eigen::Vector3d>&
     }
     candidate(pixels);
     for (std::size_t i = 0; i < m_probes.size(); ++i) {
+      if (exposure * m_probes[i].rgb.maxCoeff() > m_options.largestComponent) {
+        continue;
+      }
       const Eigen::Vector3d result = Eigen::Map<const Eigen::Vector3f>(pixels.data() + 4 * i).cast<double>() / exposure;
       const double error = errorOf(expected[i], result);
       if (errors.empty() || error > report.max) {

@@ -12,6 +12,7 @@
 #include "metamer/ocio/config_source.h"
 #include "metamer/ocio/lut_writer.h"
 #include "metamer/ocio/representation.h"
+#include "metamer/ocio/shaper.h"
 #include "metamer/sip/recipe.h"
 #include "metamer/spectral/data_library.h"
 
@@ -23,9 +24,9 @@ struct BakeOptions {
   /// Nodes along a side, kSmallestTable ... kLargestTable (log_cube.h); 0: 65 for a chain and for .clf, 33 for other
   /// cubes. The most, where there is a tolerance.
   int size = 0;
-  bool fitted = true;                                ///< tables solved for least error; false: the transform's values
-  std::optional<spectral::LogEncoding> shaper = {};  ///< of cubes of a linear space; empty: ACEScct
-  ConfigSource config = {};                          ///< where spaces that are not built in are looked up
+  bool fitted = true;                 ///< tables solved for least error; false: the transform's values
+  std::optional<Shaper> shaper = {};  ///< of cubes of a linear space; empty: ACEScct. A display's not for .ctf and .clf
+  ConfigSource config = {};           ///< where spaces that are not built in are looked up
   /// 99th percentile of CIEDE2000 to hold, over the gamut and exposures that the certificate states, with the cheapest
   /// that does: nothing, a matrix, a table of few nodes, of more. Above 0; not together with `representation`.
   std::optional<double> tolerance = {};

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,10 +34,12 @@ struct Comparison {
 Comparison summarise(std::vector<ComparedColour> colours);
 
 /// Runs probes at every stop from `lowestStop` to `highestStop` through two transforms of RGBA pixels, in place, linear
-/// in `space`; the figure is the error protocol's (docs/error_protocol.md). @throws spectral::InputError: falling stops
+/// in `space`; the figure is the error protocol's (docs/error_protocol.md). What has a component above
+/// `largestComponent` at a stop is left out there. @throws spectral::InputError: falling stops
 Comparison compareTransforms(const spectral::RgbSpace& space, const std::vector<ErrorProtocol::Probe>& probes,
                              int lowestStop, int highestStop, const std::function<void(std::span<float>)>& a,
-                             const std::function<void(std::span<float>)>& b);
+                             const std::function<void(std::span<float>)>& b,
+                             double largestComponent = std::numeric_limits<double>::infinity());
 
 /// Compares two pictures of as many RGBA pixels (else an InputError), linear in `space`. Both are divided by the
 /// exposure of the first (its luminance over 0.18), as if every pixel were a probe; what is more than `darkestStop`

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ class ErrorProtocol {
     int lowestStop = -10;          ///< -kMostStops ... highestStop
     int highestStop = 10;          ///< lowestStop ... kMostStops
     bool insideGamutOnly = false;  ///< leave out probes with a negative component: what a log cube cannot hold
+    /// Probes are left out at stops at which a component is above it: what a table of a display's signal cannot hold.
+    double largestComponent = std::numeric_limits<double>::infinity();
   };
   struct Probe {
     std::string name;     ///< "xy 0.3127 0.3290", "patch 5 blue flower", "ring 12"

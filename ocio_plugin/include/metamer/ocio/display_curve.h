@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace metamer::lutgen {
+namespace metamer::ocio {
 
 /// A curve of a display: sRGB (IEC 61966-2-1), or a power.
 struct DisplayCurve {
@@ -13,9 +13,14 @@ struct DisplayCurve {
   /// Light from signal and back, mirrored below zero, going on above 1.
   double decoded(double signal) const;
   double encoded(double light) const;
+
+  /// "sRGB", "Rec.1886" where it is 2.4, else "Gamma 2.2".
+  std::string name() const;
+
+  bool operator==(const DisplayCurve&) const = default;
 };
 
-/// "sRGB", "Rec.1886" or "Rec.709 video" (2.4), "Gamma 2.2" and other numbers; without regard to case. Empty: none.
+/// "sRGB", "Rec.1886" (2.4), "Gamma 2.2" and other numbers from 1 to 4; without regard to case. Empty: none.
 std::optional<DisplayCurve> displayCurveNamed(const std::string& name);
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::ocio

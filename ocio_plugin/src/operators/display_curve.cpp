@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apply/display_curve.h"
+#include "metamer/ocio/display_curve.h"
 
 #include <cmath>
 
 #include "metamer/spectral/text.h"
 
-namespace metamer::lutgen {
+namespace metamer::ocio {
+
+namespace {
+
+/// Of ITU-R BT.1886 with a black of no light.
+constexpr double kRec1886 = 2.4;
+
+}  // namespace
 
 double DisplayCurve::decoded(double signal) const {
   const double size = std::abs(signal);
@@ -23,13 +30,17 @@ double DisplayCurve::encoded(double light) const {
   return std::copysign(signal, light);
 }
 
+std::string DisplayCurve::name() const {
+  return !gamma ? "sRGB" : *gamma == kRec1886 ? "Rec.1886" : "Gamma " + spectral::numberText(*gamma);
+}
+
 std::optional<DisplayCurve> displayCurveNamed(const std::string& name) {
   const std::string lower = spectral::lowerCase(spectral::trimmed(name));
   if (lower == "srgb") {
     return DisplayCurve{};
   }
   if (lower == "rec.1886" || lower == "bt.1886") {
-    return DisplayCurve{2.4};
+    return DisplayCurve{kRec1886};
   }
   if (lower.rfind("gamma", 0) == 0) {
     const auto number = spectral::parseNumber(lower.substr(5));
@@ -40,4 +51,4 @@ std::optional<DisplayCurve> displayCurveNamed(const std::string& name) {
   return std::nullopt;
 }
 
-}  // namespace metamer::lutgen
+}  // namespace metamer::ocio
