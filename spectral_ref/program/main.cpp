@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "commands.h"
+#include "exr_channels.h"
 #include "metamer/spectral/interruption.h"
 #include "metamer/spectral/message_line.h"
 
@@ -52,6 +53,7 @@ void warn(const std::string& message) {
 
 int main(int argumentCount, char** arguments) {
   metamer::spectral::endCleanlyBySignals("spectral_ref");
+  metamer::spectral::readSpectraFromExr();
   CLI::App application("Reference spectral path tracer: scenes to pictures with error bars.", "spectral_ref");
   application.set_version_flag("--version", std::string("spectral_ref ") + METAMER_VERSION);
   application.require_subcommand(1);

@@ -11,6 +11,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/missing_file_error.h"
+#include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
@@ -23,19 +24,21 @@ std::string extensionOf(const std::string& file) {
   return lowerCase(std::filesystem::path(file).extension().string());
 }
 
+constexpr std::string_view kPicture = ".exr";
+
 bool isTable(const std::string& extension) {
   return std::find(kTables.begin(), kTables.end(), extension) != kTables.end();
 }
 
 bool isKnown(const std::string& extension) {
-  return isTable(extension) || extension == ".spdx" || extension == ".json";
+  return isTable(extension) || extension == ".spdx" || extension == ".json" || extension == kPicture;
 }
 
 std::vector<Spectrum> readWholeFile(const std::string& file, SpectralQuantity quantity) {
   const std::string extension = extensionOf(file);
   if (!isKnown(extension)) {
     throw InputError(file, "extension", extension,
-                     "must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), .spdx or .json");
+                     "must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), .spdx, .json or .exr");
   }
   const std::string text = readTextFile(file);
   return extension == ".spdx"   ? readSpdx(text, file, quantity)
@@ -129,6 +132,9 @@ std::string columnsText(const std::vector<Spectrum>& spectra) {
 
 std::vector<Spectrum> readSpectralFile(const std::filesystem::path& fileOrColumn, SpectralQuantity quantity) {
   const auto [where, column] = spectralFileName(fileOrColumn.string());
+  if (extensionOf(where) == kPicture) {
+    return readSpectralPicture(where, column, quantity);
+  }
   std::vector<Spectrum> spectra = readWholeFile(where, quantity);
   return column.empty() ? spectra : std::vector<Spectrum>{columnNamed(column, spectra, where)};
 }

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <system_error>
+#include <utility>
+
+#include "metamer/spectral/spectral_picture.h"
+#include "metamer/spectral/spectrum.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -17,6 +21,7 @@ struct Pixels {
   int width = 0;
   int height = 0;
   int channels = 0;
+  std::vector<std::string> names;
   std::vector<float> values;
 };
 
@@ -40,7 +45,7 @@ Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) 
   if (spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMostValues) {
     throw value.error("", "'" + file.string() + "' has more than 2^30 values; give fewer pixels or channels");
   }
-  Pixels pixels{spec.width, spec.height, spec.nchannels, {}};
+  Pixels pixels{spec.width, spec.height, spec.nchannels, spec.channelnames, {}};
   pixels.values.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.values.data())) {
     throw value.error("", "'" + file.string() + "' cannot be read: " + input->geterror());
@@ -106,6 +111,53 @@ std::vector<SpectrumId> readEmitters(const SceneSection& section, SceneSpectra& 
   return ids;
 }
 
+/// A spectral picture's channels by rising wavelength: nanometres, and which it is. Empty: it is none.
+std::vector<std::pair<double, int>> spectralChannels(const Pixels& pixels) {
+  std::vector<std::pair<double, int>> channels;
+  for (int c = 0; c < pixels.channels; ++c) {
+    const auto nm = spectral::channelWavelengthNm(pixels.names[static_cast<std::size_t>(c)],
+                                                  spectral::SpectralQuantity::SpectralPowerDistribution);
+    if (nm) {
+      channels.emplace_back(*nm, c);
+    }
+  }
+  std::sort(channels.begin(), channels.end());
+  const auto same = std::adjacent_find(channels.begin(), channels.end(),
+                                       [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (channels.size() < 2 || same != channels.end()) {
+    channels.clear();
+  }
+  return channels;
+}
+
+/// An emitter a channel: linear to the next one's wavelength, nothing beyond the outer ones.
+EmitterPicture spectralPicture(const Pixels& pixels, const std::vector<std::pair<double, int>>& channels, float scale,
+                               SceneSpectra& spectra) {
+  EmitterPicture picture;
+  picture.width = pixels.width;
+  picture.height = pixels.height;
+  std::vector<double> wavelengths;
+  for (const auto& [nm, channel] : channels) {
+    wavelengths.push_back(nm);
+  }
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    std::vector<double> hat(channels.size(), 0.0);
+    hat[k] = 1.0;
+    const spectral::Spectrum light("channel", spectral::SpectralQuantity::SpectralPowerDistribution, wavelengths,
+                                   std::move(hat));
+    picture.emitters.push_back(spectra.add(light.onDomain()));
+  }
+  const std::size_t count = static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height);
+  picture.drives.reserve(count * channels.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* pixel = pixels.values.data() + i * static_cast<std::size_t>(pixels.channels);
+    for (const auto& [nm, channel] : channels) {
+      picture.drives.push_back(std::max(scale * pixel[channel], 0.0F));  // a lamp cannot take light away
+    }
+  }
+  return picture;
+}
+
 }  // namespace
 
 spectral::DomainSamples smoothestEmission(const Eigen::Vector3d& xyz, const spectral::Observer& observer) {
@@ -160,13 +212,17 @@ spectral::DomainSamples smoothestEmission(const Eigen::Vector3d& xyz, const spec
 EmitterPicture readPicture(const SceneSection& section, SceneSpectra& spectra) {
   const auto file = section.require("picture", "is missing; name a picture file");
   const Pixels pixels = readPixels(file, spectra.folder());
+  const auto scaleValue = section.find("scale");
+  const auto scale = static_cast<float>(scaleValue ? scaleValue->number(0.0, 1e12) : 1.0);
+  const auto channels = spectralChannels(pixels);
+  if (!channels.empty() && !section.find("emitters") && !section.find("matrix")) {
+    return spectralPicture(pixels, channels, scale, spectra);
+  }
   EmitterPicture picture;
   picture.width = pixels.width;
   picture.height = pixels.height;
   picture.emitters = readEmitters(section, spectra);
   const Eigen::MatrixXf matrix = readMatrix(section, picture.emitters.size(), pixels);
-  const auto scaleValue = section.find("scale");
-  const auto scale = static_cast<float>(scaleValue ? scaleValue->number(0.0, 1e12) : 1.0);
   const auto count = static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height);
   picture.drives.reserve(count * picture.emitters.size());
   for (std::size_t i = 0; i < count; ++i) {

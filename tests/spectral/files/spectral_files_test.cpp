@@ -49,7 +49,7 @@ TEST_F(SpectralFilesTest, TheExtensionPicksTheReader) {
   EXPECT_EQ(errorOf([&] { readSpectralFile(other, kPower); }),
             other +
                 ": extension '.pdf': must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), "
-                ".spdx or .json");
+                ".spdx, .json or .exr");
 }
 
 TEST_F(SpectralFilesTest, WhatIsNoFileIsRefused) {

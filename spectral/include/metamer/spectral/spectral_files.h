@@ -13,7 +13,7 @@ namespace metamer::spectral {
 /// Largest file any reader takes, bytes; larger ones are refused by name and size.
 inline constexpr std::uintmax_t kLargestFileBytes = 64u << 20;
 
-/// A file, or one curve of it: "lamps.csv", "lamps.csv:warm", "lamps.csv:2".
+/// A file, or one curve of it: "lamps.csv", "lamps.csv:warm", "lamps.csv:2", "hdri.exr:120,80".
 struct SpectralFileName {
   std::string file;
   std::string column;  ///< name or number, from 1, of a curve; empty for all
@@ -33,6 +33,8 @@ bool looksLikeSpectralFile(const std::string& nameOrFile);
 ///   .sp .ti3 .ccss .cgats            CGATS, as Argyll and i1Profiler write it; read under the extensions above as well
 ///   .spdx                            IES TM-27-14 XML
 ///   .json                            rawtoaces measurement JSON
+///   .exr                             a spectral picture, its mean or FILE:x,y, in programs that read pictures
+///                                    (spectral_picture.h)
 /// @param file      FILE or FILE:COLUMN, see SpectralFileName
 /// @param quantity  what the caller asks for; a file that states another quantity is refused
 /// @throws InputError naming the file, the line or field, the value and the remedy; the columns where COLUMN is none
