@@ -27,6 +27,9 @@ SKIPPED = {
 LONG_PAGES = {"compare.md", "configs.md"}
 LONG_LINES = ("lutgen validate", "lutgen stage patterns", "lutgen bake day_to_sodium.yaml --", "lutgen bake --illuminant-in \"3200",
               "lutgen config day_to_sodium", "lutgen compare day_to_sodium")
+# A figure that a page shows may be this far from today's, of its size: what a reader sees is the same.
+QUOTED = 0.02
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
 BLOCK = re.compile(r"^( *)```(\w*)\n(.*?)^\1```$", re.MULTILINE | re.DOTALL)
 
 
@@ -61,11 +64,15 @@ class Pages(unittest.TestCase):
         self.run_in_folder(["bash", "-euxo", "pipefail", "-c", text], page)
 
     def run_console(self, text, page):
-        """A line behind "$ ", and the first lines that it prints."""
+        """A line behind "$ ", and the first lines that it prints: the same words, and figures as near as they are quoted."""
         command, *printed = text.rstrip("\n").split("\n")
         self.assertTrue(command.startswith("$ "), page)
         got = self.run_in_folder(["bash", "-c", command[2:]], page).split("\n")
-        self.assertEqual(got[: len(printed)], printed, page)
+        for said, line in zip(got, printed, strict=False):
+            self.assertEqual(NUMBER.sub("#", said), NUMBER.sub("#", line), page)
+            for now, quoted in zip(NUMBER.findall(said), NUMBER.findall(line), strict=True):
+                self.assertAlmostEqual(float(now), float(quoted), delta=QUOTED * abs(float(quoted)), msg=f"{page}: {line}")
+        self.assertGreaterEqual(len(got), len(printed), page)
 
     def run_yaml(self, text, page):
         """A file that the page has its reader write, named in its first line; else one to look at, a recipe that bakes."""
