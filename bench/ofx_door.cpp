@@ -65,6 +65,11 @@ extern "C" void ofxSetNumber(void* session, const char* parameter, double value)
   effectOf(session).set(parameter, value);
 }
 
+/// The same, as a draft.
+extern "C" int ofxRenderDraft(void* session, double time) {
+  return effectOf(session).render(static_cast<Session*>(session)->bounds, time, kOfxImageFieldNone, {1, 1}, true);
+}
+
 /// The whole picture at a time; the host's status.
 extern "C" int ofxRender(void* session, double time) {
   return effectOf(session).render(static_cast<Session*>(session)->bounds, time);

@@ -189,13 +189,15 @@ OfxStatus Instance::act(const char* action, Properties* in, Properties* out) con
   return m_host.act(m_plugin, action, m_effect.get(), in, out);
 }
 
-OfxStatus Instance::render(const OfxRectI& window, double time, const std::string& field, OfxPointD scale) const {
+OfxStatus Instance::render(const OfxRectI& window, double time, const std::string& field, OfxPointD scale,
+                           bool isDraft) const {
   Properties in;
   in.set(kOfxPropTime, time);
   in.set(kOfxImageEffectPropFieldToRender, field);
   in.setAll(kOfxImageEffectPropRenderWindow, {window.x1, window.y1, window.x2, window.y2});
   in.set(kOfxImageEffectPropRenderScale, 0, scale.x);
   in.set(kOfxImageEffectPropRenderScale, 1, scale.y);
+  in.set(kOfxImageEffectPropRenderQualityDraft, isDraft ? 1 : 0);
   return act(kOfxImageEffectActionRender, &in, nullptr);
 }
 

@@ -129,7 +129,7 @@ class Instance {
   OfxStatus act(const char* action, Properties* in, Properties* out) const;
   /// @param window  in pixels at that scale
   OfxStatus render(const OfxRectI& window, double time = 0, const std::string& field = kOfxImageFieldNone,
-                   OfxPointD renderScale = {1, 1}) const;
+                   OfxPointD renderScale = {1, 1}, bool isDraft = false) const;
   /// Name of the clip that stands for the result, or nothing.
   std::string identity(const OfxRectI& window, double time = 0) const;
 

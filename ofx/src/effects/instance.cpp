@@ -17,6 +17,12 @@ FieldToRender fieldToRender(const PropertySet& arguments, const ClipImage& outpu
   return isWholeFrame && field == kOfxImageFieldUpper ? FieldToRender::Upper : FieldToRender::Whole;
 }
 
+RenderQuality renderQuality(const PropertySet& arguments) {
+  // Hosts of before OpenFX 1.4 do not have the property.
+  return arguments.findInt(kOfxImageEffectPropRenderQualityDraft).value_or(0) != 0 ? RenderQuality::Draft
+                                                                                   : RenderQuality::Final;
+}
+
 }  // namespace
 
 Instance::Instance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle)
@@ -143,7 +149,7 @@ void Instance::render(const PropertySet& arguments) {
     transform = transformOrMessage(time);
   }
   if (transform != nullptr && !transform->isIdentity() && job.mix > 0.0) {
-    transform->prepare();
+    transform->prepare(renderQuality(arguments));
     job.transform = transform.get();
   }
   ofx::render(m_host, job, [this] { return m_host.effect->abort(m_handle) != 0; });

@@ -142,9 +142,7 @@ class SpectralTransfer final : public Effect {
     const auto engine = m_engines.get(toYaml(recipe) + recipe.folder.string(), [&] {
       FileStamps files = filesOf(recipe);
       return SharedCache<SpectralEngine>::Built{
-          std::make_shared<SpectralEngine>(
-              sip::SpectralTransform(sip::resolve(recipe, library, space.linear), sip::kDefaultBandCount, &m_scenes),
-              m_memory),
+          std::make_shared<SpectralEngine>(sip::resolve(recipe, library, space.linear), m_memory, m_draftMemory),
           std::move(files)};
     });
     const Quality quality = values.menu("quality", time) == kExactQuality ? Quality::Exact : Quality::Map;
@@ -181,8 +179,8 @@ class SpectralTransfer final : public Effect {
   const Catalogue& m_catalogue;
   SignalTables m_tables;
   mutable SharedCache<SpectralEngine> m_engines{kKeptEngines};
-  mutable sip::SceneCache m_scenes;
-  sip::MapMemory m_memory;
+  mutable EngineMemory m_memory;
+  mutable EngineMemory m_draftMemory;
 };
 
 }  // namespace

@@ -5,13 +5,16 @@
 
 namespace metamer::ofx {
 
+/// What a render is for. A draft is seen while a slider is drawn, and rendered again.
+enum class RenderQuality { Final, Draft };
+
 /// What an effect does to a pixel, ready to run. Immutable once prepared; shared between instances, frames, threads.
 class PixelTransform {
  public:
   virtual ~PixelTransform() = default;
 
-  /// Builds what apply() needs, where that takes time. Called before apply(), from any thread, any number of times.
-  virtual void prepare() const {}
+  /// Builds what apply() needs, where that takes time. Called before apply(), once by each render on its own object.
+  virtual void prepare(RenderQuality /*quality*/) const {}
 
   /// Float RGBA, from `source` to `destination`, equal in length; the two are the same memory or do not overlap. Alpha
   /// is copied. A pixel with a colour component that is not finite is copied. The result of a pixel depends on nothing

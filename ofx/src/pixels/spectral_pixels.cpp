@@ -28,9 +28,22 @@ void onOwnThreads(int count, const std::function<void(int)>& body) {
 const sip::HomogeneousMap& SpectralEngine::map() const {
   const std::lock_guard lock(m_mutex);
   if (!m_map) {
-    m_map = sip::buildHomogeneousMap(m_exact, sip::kDefaultMapTolerance, onOwnThreads, &m_memory);
+    m_map = sip::buildHomogeneousMap(m_exact, sip::kDefaultMapTolerance, onOwnThreads, &m_memory.maps);
+    m_hasMap = true;
   }
   return *m_map;
+}
+
+const sip::HomogeneousMap& SpectralEngine::draftMap() const {
+  if (m_hasMap) {
+    return *m_map;
+  }
+  const std::lock_guard lock(m_draftMutex);
+  if (!m_draft) {
+    const sip::SpectralTransform coarse(m_spec, kDraftBandCount, &m_draftMemory.scenes);
+    m_draft = sip::buildHomogeneousMap(coarse, kDraftTolerance, onOwnThreads, &m_draftMemory.maps);
+  }
+  return *m_draft;
 }
 
 namespace {
@@ -41,9 +54,9 @@ class SpectralPixels final : public PixelTransform {
                  std::shared_ptr<const SignalTable> table, Quality quality)
       : m_engine(std::move(engine)), m_encoding(encoding), m_table(std::move(table)), m_quality(quality) {}
 
-  void prepare() const override {
+  void prepare(RenderQuality quality) const override {
     if (m_quality == Quality::Map) {
-      m_map = &m_engine->map();
+      m_map = quality == RenderQuality::Draft ? &m_engine->draftMap() : &m_engine->map();
     }
   }
 

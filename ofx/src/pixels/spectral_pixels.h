@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <optional>
 
 #include "metamer/sip/homogeneous_map.h"
+#include "metamer/sip/map_memory.h"
+#include "metamer/sip/scene_cache.h"
 #include "metamer/sip/spectral_transform.h"
 #include "metamer/spectral/log_encoding.h"
 #include "pixels/pixel_transform.h"
@@ -13,22 +16,43 @@
 
 namespace metamer::ofx {
 
+/// Bands of a draft's transform, and the tolerance of its map: a frame while a slider is drawn, on photographs within
+/// half a CIEDE2000 (99th percentile).
+inline constexpr int kDraftBandCount = 81;
+inline constexpr double kDraftTolerance = 0.5;
+
+/// What other engines had to solve, for final frames or for drafts. Outlives them all.
+struct EngineMemory {
+  sip::SceneCache scenes;
+  sip::MapMemory maps;
+};
+
 /// An engine with its map, the map built when it is first asked for.
 class SpectralEngine {
  public:
-  /// @param memory  of other engines' maps; outlives this
-  SpectralEngine(sip::SpectralTransform transform, const sip::MapMemory& memory)
-      : m_exact(std::move(transform)), m_memory(memory) {}
+  /// @throws spectral::InputError as SpectralTransform does
+  SpectralEngine(sip::TransformSpec spec, EngineMemory& memory, EngineMemory& draftMemory)
+      : m_spec(std::move(spec)),
+        m_memory(memory),
+        m_draftMemory(draftMemory),
+        m_exact(m_spec, sip::kDefaultBandCount, &memory.scenes) {}
 
   const sip::SpectralTransform& exact() const { return m_exact; }
   /// Safe from several threads: one builds, the others wait.
   const sip::HomogeneousMap& map() const;
+  /// map() where it is there; else a coarse one, in a fraction of the time.
+  const sip::HomogeneousMap& draftMap() const;
 
  private:
+  sip::TransformSpec m_spec;
+  EngineMemory& m_memory;
+  EngineMemory& m_draftMemory;
   sip::SpectralTransform m_exact;
-  const sip::MapMemory& m_memory;
   mutable std::mutex m_mutex;
   mutable std::optional<sip::HomogeneousMap> m_map;
+  mutable std::atomic<bool> m_hasMap = false;
+  mutable std::mutex m_draftMutex;
+  mutable std::optional<sip::HomogeneousMap> m_draft;
 };
 
 enum class Quality { Map, Exact };
