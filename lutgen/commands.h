@@ -34,5 +34,6 @@ void addBake(CLI::App& application);
 void addList(CLI::App& application);
 void addConfig(CLI::App& application);
 void addDiff(CLI::App& application);
+void addSpectrum(CLI::App& application);
 
 }  // namespace metamer::lutgen

@@ -22,6 +22,7 @@ void addCommands(CLI::App& application) {
   addList(application);
   addConfig(application);
   addDiff(application);
+  addSpectrum(application);
   for (const CommandName& command : kPictureCommands) {  // for the help alone
     command.addTo(application)->callback([] { throw CLI::ValidationError("command", "must come first"); });
   }
