@@ -43,7 +43,7 @@ nlohmann::ordered_json entriesOf(const std::string& kind, const std::string& wor
       entries.push_back({{"name", format.name},
                          {"extension", format.extension},
                          {"holds", format.use},
-                         {"shaper", format.holdsPrelut}});
+                         {"shaper", format.holdsShaperCurve}});
     }
     return entries;
   }

@@ -58,7 +58,7 @@ class Formats(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.temporary.cleanup)
         cls.folder = Path(cls.temporary.name)
-        cls.files, cls.has_prelut = {}, {}
+        cls.files, cls.has_shaper = {}, {}
         for adaptation in (0, 1):
             for entry in formats():
                 file = cls.folder / f"{adaptation}_{entry['name'].replace('/', '_')}{entry['extension']}"
@@ -66,7 +66,7 @@ class Formats(unittest.TestCase):
                        SIZE, "--format", entry["name"], "-o", file)
                 cls.files[adaptation, entry["name"]] = file
                 settings = json.loads(Path(f"{file}.json").read_text(encoding="utf-8"))["transform"]
-                cls.has_prelut[entry["name"]] = "shaper_entries" in settings
+                cls.has_shaper[entry["name"]] = "shaper_entries" in settings
 
     def test_both_releases_read_what_was_baked(self):
         """Against the same table in the format with most digits: what a format's own precision costs."""
@@ -79,7 +79,7 @@ class Formats(unittest.TestCase):
                 baked[name, release] = through(reader, file, light) * scale
         for (name, release), result in baked.items():
             reference = "Color Transform Format" if name == "Color Transform Format" else "iridas_cube"
-            if self.has_prelut[name]:
+            if self.has_shaper[name]:
                 reference = "Academy/ASC Common LUT Format"
             wanted = baked[reference, "2.1"]
             error = colour.delta_E(lab(wanted), lab(result), method="CIE 2000")

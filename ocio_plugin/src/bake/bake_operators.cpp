@@ -2,7 +2,7 @@
 #include "bake/bake_operators.h"
 
 #include "bake/table_sizes.h"
-#include "cube/prelut.h"
+#include "cube/shaper_curve.h"
 #include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/sip/probe_limits.h"
@@ -115,7 +115,7 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
   certificate.representation = representation;
   certificate.fitted = options.fitted;
   certificate.negativesKept = format.holdsNegatives;
-  certificate.prelutSize = 0;
+  certificate.shaperEntries = 0;
   certificate.size = tableSize(options, isCube ? Representation::LogCube : representation, format);
   if (!isCube && representation != Representation::LogCube) {
     return {space.wrapped(engineOperators(representation, prepared.spec, prepared.transform, certificate.size)),
@@ -128,9 +128,9 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
   if (representation == Representation::LogCube) {
     OCIO::ConstTransformRcPtr curve;
     // A display's signal is dense in the dark already, and needs its nodes where it is bright.
-    if (options.fitted && format.holdsPrelut && certificate.size >= kPrelutFromSize && !isDisplay(shaper)) {
-      certificate.prelutSize = options.shaperSize != 0 ? options.shaperSize : kPrelutEntries;
-      curve = prelut(signal, certificate.size, certificate.probes.lowestStop, certificate.prelutSize);
+    if (options.fitted && format.holdsShaperCurve && certificate.size >= kShaperCurveFromSize && !isDisplay(shaper)) {
+      certificate.shaperEntries = options.shaperSize != 0 ? options.shaperSize : kShaperCurveEntries;
+      curve = shaperCurve(signal, certificate.size, certificate.probes.lowestStop, certificate.shaperEntries);
     }
     const auto table = logCube(prepared.transform, signal,
                                {.size = certificate.size,
@@ -138,7 +138,7 @@ Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, con
                                 .lowestStop = static_cast<double>(certificate.probes.lowestStop),
                                 .highestStop = static_cast<double>(certificate.probes.highestStop),
                                 .belowZero = format.holdsNegatives,
-                                .prelut = curve});
+                                .shaperCurve = curve});
     onSignal = chained({curve, table});
   } else if (representation != Representation::Identity) {
     onSignal =

@@ -162,8 +162,8 @@ std::string Certificate::json() const {
   if (!shaper.empty()) {
     transform["shaper"] = shaper;
   }
-  if (prelutSize > 0) {
-    transform["shaper_entries"] = prelutSize;
+  if (shaperEntries > 0) {
+    transform["shaper_entries"] = shaperEntries;
   }
   transform["engine_bands"] = bandCount;
   if (!sha256.empty()) {
@@ -265,7 +265,7 @@ std::vector<std::string> Certificate::lines() const {
       "space " + recipe.space + ", " + nameOf(representation) +
           (size > 0 ? ", " + std::to_string(size) + " nodes a side, " + (fitted ? "fitted" : "sampled") : "") +
           (shaper.empty() ? "" : ", shaper " + shaper) +
-          (prelutSize > 0 ? ", 1-D shaper of " + std::to_string(prelutSize) + " entries" : ""),
+          (shaperEntries > 0 ? ", 1-D shaper of " + std::to_string(shaperEntries) + " entries" : ""),
       figures.data(), "worst: " + error.worstProbe};
   std::array<char, 160> range{};
   std::snprintf(range.data(), range.size(), "gamut %s%s; condition %.4g, relaxation %.3g, gain %.4g, folds %.2f %%",

@@ -7,8 +7,8 @@
 #include "cube/cube_fit.h"
 #include "cube/cube_lattice.h"
 #include "cube/cube_samples.h"
-#include "cube/prelut.h"
 #include "cube/sampled_cube.h"
+#include "cube/shaper_curve.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/sip/probe_limits.h"
 #include "metamer/spectral/argument_checks.h"
@@ -51,7 +51,7 @@ OCIO::Lut3DTransformRcPtr logCube(const sip::SpectralTransform& transform, const
   spectral::requireWithin("size", size, kSmallestTable, kLargestTable);
   spectral::requireWithin("lowest stop", options.lowestStop, -sip::kMostStops, options.highestStop);
   spectral::requireWithin("highest stop", options.highestStop, options.lowestStop, sip::kMostStops);
-  const Signal axes = options.prelut ? behindPrelut(signal, options.prelut) : signal;
+  const Signal axes = options.shaperCurve ? behindShaperCurve(signal, options.shaperCurve) : signal;
   std::vector<Eigen::Vector3f> nodes = sampledCube(transform, axes, signal, size);
   if (options.fitted) {
     keepBlack(nodes, size, axes, signal);

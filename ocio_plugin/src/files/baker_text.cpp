@@ -22,13 +22,14 @@ void addSpace(OCIO::Config& config, const char* name, const OCIO::ConstTransform
 }
 
 /// What the baker needs to be asked: a config of the signal, of that behind the group, and of a table's axes where
-/// there is a prelut.
-OCIO::ConstConfigRcPtr configOf(const OCIO::ConstGroupTransformRcPtr& group, const OCIO::ConstTransformRcPtr& prelut) {
+/// there is a 1-D shaper.
+OCIO::ConstConfigRcPtr configOf(const OCIO::ConstGroupTransformRcPtr& group,
+                                const OCIO::ConstTransformRcPtr& shaperCurve) {
   auto config = OCIO::Config::CreateRaw()->createEditableCopy();
   addSpace(*config, kInput, nullptr);
   addSpace(*config, kOutput, group);
-  if (prelut) {
-    addSpace(*config, kAxes, prelut);
+  if (shaperCurve) {
+    addSpace(*config, kAxes, shaperCurve);
   }
   return config;
 }
@@ -57,21 +58,21 @@ std::string withComments(std::string text, const std::string& formatName, const 
 }  // namespace
 
 std::string bakerText(const std::string& formatName, const OCIO::ConstGroupTransformRcPtr& group,
-                      const OCIO::ConstLut1DTransformRcPtr& prelut, int size, int shaperSize,
+                      const OCIO::ConstLut1DTransformRcPtr& shaperCurve, int size, int shaperSize,
                       const LutDescription& description) {
   std::ostringstream text;
   try {
     auto baker = OCIO::Baker::Create();
-    baker->setConfig(configOf(group, prelut));
+    baker->setConfig(configOf(group, shaperCurve));
     baker->setFormat(formatName.c_str());
     baker->setInputSpace(kInput);
     baker->setTargetSpace(kOutput);
     if (size > 0) {
       baker->setCubeSize(size);
     }
-    if (prelut) {
+    if (shaperCurve) {
       baker->setShaperSpace(kAxes);
-      baker->setShaperSize(static_cast<int>(prelut->getLength()));
+      baker->setShaperSize(static_cast<int>(shaperCurve->getLength()));
     } else if (shaperSize > 0) {
       baker->setShaperSize(shaperSize);
     }

@@ -54,15 +54,15 @@ std::string iridasCubeText(std::span<const float> rgba, int size, const LutDescr
   return text;
 }
 
-std::string resolveCubeText(std::span<const float> prelut, std::span<const float> rgba, int size,
+std::string resolveCubeText(std::span<const float> shaperCurve, std::span<const float> rgba, int size,
                             const LutDescription& description) {
   std::string text = "# " + description.name + "\n";
   appendComments(text, description);
-  if (!prelut.empty()) {
-    text += "LUT_1D_SIZE " + std::to_string(prelut.size() / 4) + "\nLUT_1D_INPUT_RANGE 0.0 1.0\n";
+  if (!shaperCurve.empty()) {
+    text += "LUT_1D_SIZE " + std::to_string(shaperCurve.size() / 4) + "\nLUT_1D_INPUT_RANGE 0.0 1.0\n";
   }
   text += "LUT_3D_SIZE " + std::to_string(size) + "\nLUT_3D_INPUT_RANGE 0.0 1.0\n";
-  appendNodes(text, prelut);
+  appendNodes(text, shaperCurve);
   appendNodes(text, rgba);
   return text;
 }

@@ -13,8 +13,8 @@ namespace metamer::ocio {
 /// Iridas (Adobe): TITLE, LUT_3D_SIZE, DOMAIN_MIN and DOMAIN_MAX.
 std::string iridasCubeText(std::span<const float> rgba, int size, const LutDescription& description);
 /// Resolve: LUT_3D_SIZE and LUT_3D_INPUT_RANGE, and the same of a curve before it where there is one.
-/// @param prelut  entries of four floats over 0 ... 1; none: no curve
-std::string resolveCubeText(std::span<const float> prelut, std::span<const float> rgba, int size,
+/// @param shaperCurve  entries of four floats over 0 ... 1; none: no curve
+std::string resolveCubeText(std::span<const float> shaperCurve, std::span<const float> rgba, int size,
                             const LutDescription& description);
 /// Imageworks' spi3d, which has no place for comments; OCIO's baker writes it from 2.4 on alone.
 std::string spi3dText(std::span<const float> rgba, int size);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "cube/prelut.h"
+#include "cube/shaper_curve.h"
 #include "files/baker_text.h"
 #include "files/cube_text.h"
 #include "metamer/ocio/log_cube.h"
@@ -162,7 +162,7 @@ std::string lutText(const LutFormat& format, const OCIO::ConstGroupTransformRcPt
     return spi1dText(curves(group, shaperSize > 0 ? shaperSize : kCurveEntries));
   }
   spectral::requireWithin("size", size, kSmallestTable, kLargestTable);
-  const OCIO::ConstLut1DTransformRcPtr curve = format.holdsPrelut ? leadingPrelut(group) : nullptr;
+  const OCIO::ConstLut1DTransformRcPtr curve = format.holdsShaperCurve ? leadingShaperCurve(group) : nullptr;
   if (format.extension != ".cube" && format.name != "spi3d") {
     return bakerText(format.name, group, curve, size, shaperSize, description);
   }

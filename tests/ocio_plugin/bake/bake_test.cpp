@@ -88,22 +88,22 @@ TEST(BakeTest, CubesOfLinearAndLogSpacesAgree) {
   EXPECT_GT(std::abs(a[0] - 0.41F), 0.01F);
 }
 
-TEST(BakeTest, PrelutsStandWhereTheyHelp) {
-  const auto prelutOf = [](const char* format, const BakeOptions& options) {
-    return bakeText(recipeOf("D65", "A"), testLibrary(), format, options).certificate.prelutSize;
+TEST(BakeTest, ShaperCurvesStandWhereTheyHelp) {
+  const auto entriesOf = [](const char* format, const BakeOptions& options) {
+    return bakeText(recipeOf("D65", "A"), testLibrary(), format, options).certificate.shaperEntries;
   };
   EXPECT_NE(bakeText(recipeOf("D65", "A"), testLibrary(), "resolve_cube", {.size = 17}).text.find("LUT_1D_SIZE 4096"),
             std::string::npos);
-  EXPECT_EQ(prelutOf("clf", {.size = 17}), 4096);
+  EXPECT_EQ(entriesOf("clf", {.size = 17}), 4096);
   for (const char* name : {"resolve_cube", "cinespace", "houdini"}) {
-    EXPECT_EQ(prelutOf(name, {.size = 17}), 4096) << name;
+    EXPECT_EQ(entriesOf(name, {.size = 17}), 4096) << name;
   }
-  EXPECT_EQ(prelutOf("clf", {.size = 17, .shaperSize = 300}), 300);
-  EXPECT_EQ(prelutOf("clf", {.size = 16}), 0) << "few nodes";
-  EXPECT_EQ(prelutOf("clf", {.size = 17, .fitted = false}), 0) << "the classical table";
-  EXPECT_EQ(prelutOf("iridas_cube", {.size = 17}), 0) << "no place for one";
-  EXPECT_EQ(prelutOf("ctf", {.size = 17}), 0) << "no cube";
-  EXPECT_EQ(prelutOf("ctf", {.representation = Representation::LogCube, .size = 17}), 4096);
+  EXPECT_EQ(entriesOf("clf", {.size = 17, .shaperSize = 300}), 300);
+  EXPECT_EQ(entriesOf("clf", {.size = 16}), 0) << "few nodes";
+  EXPECT_EQ(entriesOf("clf", {.size = 17, .fitted = false}), 0) << "the classical table";
+  EXPECT_EQ(entriesOf("iridas_cube", {.size = 17}), 0) << "no place for one";
+  EXPECT_EQ(entriesOf("ctf", {.size = 17}), 0) << "no cube";
+  EXPECT_EQ(entriesOf("ctf", {.representation = Representation::LogCube, .size = 17}), 4096);
 }
 
 // Sampled nodes are the engine's own answers: light in, through the curve, light out.

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <vector>
 
-#include "cube/prelut.h"
+#include "cube/shaper_curve.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/sip/error_protocol.h"
@@ -27,12 +27,13 @@ Signal signal() {
           shaperTransform(kEncoding, OCIO::TRANSFORM_DIR_FORWARD)};
 }
 
-/// A cube as what it does to light: the shaper, the prelut where there is one, the table, the shaper back.
-PixelProcessor throughLight(const OCIO::Lut3DTransformRcPtr& table, const OCIO::ConstTransformRcPtr& prelut = nullptr) {
+/// A cube as what it does to light: to the signal, the 1-D shaper where there is one, the table, back to light.
+PixelProcessor throughLight(const OCIO::Lut3DTransformRcPtr& table,
+                            const OCIO::ConstTransformRcPtr& shaperCurve = nullptr) {
   auto group = OCIO::GroupTransform::Create();
   group->appendTransform(shaperTransform(kEncoding, OCIO::TRANSFORM_DIR_FORWARD));
-  if (prelut) {
-    group->appendTransform(prelut->createEditableCopy());
+  if (shaperCurve) {
+    group->appendTransform(shaperCurve->createEditableCopy());
   }
   group->appendTransform(table);
   group->appendTransform(shaperTransform(kEncoding, OCIO::TRANSFORM_DIR_INVERSE));
@@ -48,19 +49,19 @@ std::array<float, 3> nodeOf(const OCIO::Lut3DTransformRcPtr& table, int red, int
 
 struct Target {
   const char* to;
-  double part;         ///< of the sampled cube's 99th percentile at the same size
-  double ofTwice;      ///< of a sampled cube's with 65 nodes
-  double preluttedOf;  ///< of the same, for a table behind a prelut
+  double part;      ///< of the sampled cube's 99th percentile at the same size
+  double ofTwice;   ///< of a sampled cube's with 65 nodes
+  double shapedOf;  ///< of the same, for a table behind a 1-D shaper
 };
 
 class FittedCubeTest : public testing::TestWithParam<Target> {};
 
 // The bounded engine bends less, which helps sampled cubes most: under A 65 sampled nodes fell from 1.81 to 1.42, 33
-// fitted ones from 1.98 to 1.75 (behind a prelut from 0.69 to 0.68; HP1 1.04 to 0.58, FL11 1.04 to 0.72). So the fit's
-// lead over twice the nodes is smaller than it was, and its errors are too.
+// fitted ones from 1.98 to 1.75 (behind a 1-D shaper from 0.69 to 0.68; HP1 1.04 to 0.58, FL11 1.04 to 0.72). So the
+// fit's lead over twice the nodes is smaller than it was, and its errors are too.
 
 // The design's goal is a third of the sampled cube's error and no more than that of 65 nodes. Under A the second is
-// missed by a tenth where there is no prelut: in the toe of ACEScct, where it lies, 65 nodes have eight times the
+// missed by a tenth where there is no 1-D shaper: in the toe of ACEScct, where it lies, 65 nodes have eight times the
 // freedom (docs/representations.md).
 TEST_P(FittedCubeTest, IsWorthTwiceTheNodes) {
   const sip::TransformSpec spec = sip::specOf("D65", GetParam().to);
@@ -70,10 +71,10 @@ TEST_P(FittedCubeTest, IsWorthTwiceTheNodes) {
     const std::clock_t start = std::clock();
     const auto table = logCube(transform, signal(), options);
     const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-    const PixelProcessor processor = throughLight(table, options.prelut);
+    const PixelProcessor processor = throughLight(table, options.shaperCurve);
     const auto report = protocol.measure([&](std::span<float> rgba) { processor.apply(rgba); });
     std::printf("D65 -> %s, %s %d%s: mean %.3f p99 %.3f max %.3f, %.2f s of one core\n", GetParam().to,
-                options.fitted ? "fitted" : "sampled", options.size, options.prelut ? " behind a prelut" : "",
+                options.fitted ? "fitted" : "sampled", options.size, options.shaperCurve ? " behind a 1-D shaper" : "",
                 report.mean, report.p99, report.max, seconds);
     return report.p99;
   };
@@ -81,7 +82,8 @@ TEST_P(FittedCubeTest, IsWorthTwiceTheNodes) {
   EXPECT_LE(fitted, GetParam().part * p99({.size = 33, .fitted = false}));
   const double ofTwice = p99({.size = 65, .fitted = false});
   EXPECT_LE(fitted, GetParam().ofTwice * ofTwice);
-  EXPECT_LE(p99({.size = 33, .prelut = prelut(signal(), 33, -7.0, kPrelutEntries)}), GetParam().preluttedOf * ofTwice);
+  EXPECT_LE(p99({.size = 33, .shaperCurve = shaperCurve(signal(), 33, -7.0, kShaperCurveEntries)}),
+            GetParam().shapedOf * ofTwice);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, FittedCubeTest,
@@ -120,10 +122,10 @@ TEST_F(LogCubeTest, NeutralNodesAreExact) {
 TEST(LogCubeBlackTest, BlackStaysBlack) {
   const sip::SpectralTransform transform(sip::specOf("HP1", "D65"), kBandCount);
   for (const int size : {17, 33, 65}) {
-    for (const auto& curve : {OCIO::Lut1DTransformRcPtr{}, prelut(signal(), size, -7.0, kPrelutEntries),
-                              prelut(signal(), size, -7.0, 50)}) {
+    for (const auto& curve : {OCIO::Lut1DTransformRcPtr{}, shaperCurve(signal(), size, -7.0, kShaperCurveEntries),
+                              shaperCurve(signal(), size, -7.0, 50)}) {
       const PixelProcessor processor =
-          throughLight(logCube(transform, signal(), {.size = size, .prelut = curve}), curve);
+          throughLight(logCube(transform, signal(), {.size = size, .shaperCurve = curve}), curve);
       std::array<float, 4> pixel = {0.0F, 0.0F, 0.0F, 1.0F};
       processor.apply(pixel);
       for (std::size_t channel = 0; channel < 3; ++channel) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "cube/prelut.h"
+#include "cube/shaper_curve.h"
 #include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/shaper.h"
@@ -122,22 +122,23 @@ TEST(CubeTest, FlavoursKeepApart) {
   EXPECT_EQ(lutFormat("A.CUBE", "").name, "iridas_cube");
 }
 
-// A group that starts with a prelut keeps it where the format has one; what only looks like one is left in the table.
-TEST(CubeTest, PrelutsAreKept) {
+// A group that starts with a 1-D shaper keeps it where the format has one; what only looks like one is left in the
+// table.
+TEST(CubeTest, ShaperCurvesAreKept) {
   const Signal signal = {shaperTransform(spectral::LogEncoding::AcesCct, OCIO::TRANSFORM_DIR_INVERSE),
                          shaperTransform(spectral::LogEncoding::AcesCct, OCIO::TRANSFORM_DIR_FORWARD)};
-  const OCIO::Lut1DTransformRcPtr curve = prelut(signal, kSize, -7.0, 1000);
+  const OCIO::Lut1DTransformRcPtr curve = shaperCurve(signal, kSize, -7.0, 1000);
   auto group = OCIO::GroupTransform::Create();
   group->appendTransform(curve);
   group->appendTransform(
-      logCube(sip::SpectralTransform(sip::specOf("D65", "HP1")), signal, {.size = kSize, .prelut = curve}));
+      logCube(sip::SpectralTransform(sip::specOf("D65", "HP1")), signal, {.size = kSize, .shaperCurve = curve}));
   const LutDescription description{"n", "i", {}};
   const TemporaryFolder folder;
   const std::vector<float> in = probes(-0.2F, 1.2F);
   std::vector<float> expected = in;
   PixelProcessor(group).apply(expected);
   for (const LutFormat& format : lutFormats()) {
-    if (format.holdsPrelut) {
+    if (format.holdsShaperCurve) {
       const auto file = folder / ("a" + format.extension);
       spectral::writeWholeFile(file, lutText(format, group, kSize, description));
       std::vector<float> found = in;
@@ -159,7 +160,7 @@ TEST(CubeTest, PrelutsAreKept) {
   auto whole = OCIO::GroupTransform::Create();
   whole->appendTransform(group);
   for (const LutFormat& format : lutFormats()) {
-    if (format.content == LutFormat::Content::Cube && !format.holdsPrelut) {
+    if (format.content == LutFormat::Content::Cube && !format.holdsShaperCurve) {
       EXPECT_EQ(lutText(format, group, kSize, description), lutText(format, whole, kSize, description)) << format.name;
     }
   }

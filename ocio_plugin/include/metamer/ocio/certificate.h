@@ -44,7 +44,7 @@ struct Certificate {
   bool fitted = false;                    ///< whether the table's nodes are solved for least error
   bool negativesKept = true;              ///< whether a log cube's nodes may be signals below 0
   std::string shaper;                     ///< of a log cube; empty without one
-  int prelutSize = 0;                     ///< entries of the curve in front of a log cube's table, 0 without one
+  int shaperEntries = 0;                  ///< entries of the curve in front of a log cube's table, 0 without one
   int bandCount = 0;                      ///< of the engine that made it
   std::string gamut;                      ///< working space of the probes
   sip::ErrorProtocol::Options probes;

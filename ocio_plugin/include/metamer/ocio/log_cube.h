@@ -21,11 +21,11 @@ struct LogCubeOptions {
   /// Whether nodes may be signals below 0, which stand for what leaves the gamut. False for formats of whole numbers.
   bool belowZero = true;
   /// Curve in front of the table, from the signal to the table's axes. Null: the axes are the signal's.
-  OCIO::ConstTransformRcPtr prelut = nullptr;
+  OCIO::ConstTransformRcPtr shaperCurve = nullptr;
 };
 
 /// The table of a LogCube: signal in, signal out, over 0 ... 1 on each axis, to be looked up by tetrahedra. Where there
-/// is a prelut, what comes out of it goes into the table.
+/// is a 1-D shaper, what comes out of it goes into the table.
 ///
 /// A fitted table's nodes are no values of the transform: what lies between them is as near to it as their number
 /// allows (docs/representations.md). Its neutral nodes are exact, but for the one at black or next below, which keeps

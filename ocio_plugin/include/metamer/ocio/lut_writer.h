@@ -22,8 +22,8 @@ struct LutFormat {
   std::string extension;  ///< with its dot
   std::string use;        ///< one line for a list
   Content content = Content::Cube;
-  bool holdsNegatives = true;  ///< false: whole numbers, which clip at 0
-  bool holdsPrelut = false;    ///< whether a curve may stand in front of a log cube's table
+  bool holdsNegatives = true;     ///< false: whole numbers, which clip at 0
+  bool holdsShaperCurve = false;  ///< whether a curve may stand in front of a log cube's table
 };
 
 /// All that OCIO's group writer and baker know, the one that an extension picks first among those that share it.

@@ -9,9 +9,9 @@ namespace metamer::ocio {
 
 /// Fewer nodes a side are better off without a curve: they lie two stops apart, and a straight line from one to the
 /// next misses the toe's bend by more than the toe's few nodes cost.
-inline constexpr int kPrelutFromSize = 17;
+inline constexpr int kShaperCurveFromSize = 17;
 /// Entries where nothing else is asked for.
-inline constexpr int kPrelutEntries = 4096;
+inline constexpr int kShaperCurveEntries = 4096;
 
 /// The curve in front of a fitted table: from a signal to the table's axes, 0 ... 1 both.
 ///
@@ -20,13 +20,13 @@ inline constexpr int kPrelutEntries = 4096;
 /// @param size        nodes along a side of the table
 /// @param lowestStop  round Y = 0.18
 /// @param entries     2 or more
-OCIO::Lut1DTransformRcPtr prelut(const Signal& signal, int size, double lowestStop, int entries);
+OCIO::Lut1DTransformRcPtr shaperCurve(const Signal& signal, int size, double lowestStop, int entries);
 
 /// The signal of a table's axes: `signal` seen through a curve.
-Signal behindPrelut(const Signal& signal, const OCIO::ConstTransformRcPtr& prelut);
+Signal behindShaperCurve(const Signal& signal, const OCIO::ConstTransformRcPtr& shaperCurve);
 
 /// The curve that a group starts with, where a table behind it may take 0 ... 1 for granted: it rises from 0 to 1, and
 /// more follows. Null where there is none.
-OCIO::ConstLut1DTransformRcPtr leadingPrelut(const OCIO::ConstGroupTransformRcPtr& group);
+OCIO::ConstLut1DTransformRcPtr leadingShaperCurve(const OCIO::ConstGroupTransformRcPtr& group);
 
 }  // namespace metamer::ocio

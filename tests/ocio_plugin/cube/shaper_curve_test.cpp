@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cube/prelut.h"
+#include "cube/shaper_curve.h"
 
 #include <gtest/gtest.h>
 
@@ -26,11 +26,11 @@ double nodesAt(const PixelProcessor& axes, int size, double light) {
   return static_cast<double>(pixel[1]) * (size - 1);
 }
 
-class PrelutTest : public testing::TestWithParam<spectral::LogEncoding> {};
+class ShaperCurveTest : public testing::TestWithParam<spectral::LogEncoding> {};
 
-TEST_P(PrelutTest, RisesFromZeroToOne) {
-  for (const int entries : {2, 50, kPrelutEntries, 65536}) {
-    const auto curve = prelut(signalOf(GetParam()), 33, -7.0, entries);
+TEST_P(ShaperCurveTest, RisesFromZeroToOne) {
+  for (const int entries : {2, 50, kShaperCurveEntries, 65536}) {
+    const auto curve = shaperCurve(signalOf(GetParam()), 33, -7.0, entries);
     ASSERT_EQ(curve->getLength(), static_cast<unsigned long>(entries));
     float last = -1.0F;
     for (unsigned long k = 0; k < curve->getLength(); ++k) {
@@ -47,11 +47,12 @@ TEST_P(PrelutTest, RisesFromZeroToOne) {
 }
 
 // As many nodes for a stop at the dark end of the range as in its middle, but for the curve's way to black.
-TEST_P(PrelutTest, SpreadsNodesEvenlyOverStops) {
+TEST_P(ShaperCurveTest, SpreadsNodesEvenlyOverStops) {
   constexpr int kSize = 33;
   for (const double lowest : {-7.0, -3.0}) {
     const Signal signal = signalOf(GetParam());
-    const PixelProcessor axes(behindPrelut(signal, prelut(signal, kSize, lowest, kPrelutEntries)).fromEngine);
+    const PixelProcessor axes(
+        behindShaperCurve(signal, shaperCurve(signal, kSize, lowest, kShaperCurveEntries)).fromEngine);
     const double dark = 0.18 * std::exp2(lowest);
     const double aStop = nodesAt(axes, kSize, 0.36) - nodesAt(axes, kSize, 0.18);
     EXPECT_GT(aStop, 1.0);
@@ -59,16 +60,16 @@ TEST_P(PrelutTest, SpreadsNodesEvenlyOverStops) {
   }
 }
 
-TEST_P(PrelutTest, PutsBlackOnANode) {
+TEST_P(ShaperCurveTest, PutsBlackOnANode) {
   const Signal signal = signalOf(GetParam());
-  const PixelProcessor axes(behindPrelut(signal, prelut(signal, 33, -7.0, 65536)).fromEngine);
+  const PixelProcessor axes(behindShaperCurve(signal, shaperCurve(signal, 33, -7.0, 65536)).fromEngine);
   const double black = nodesAt(axes, 33, 0.0);
   EXPECT_NEAR(black, std::round(black), 0.05);
 }
 
-TEST_P(PrelutTest, ComesBack) {
+TEST_P(ShaperCurveTest, ComesBack) {
   const Signal signal = signalOf(GetParam());
-  const Signal axes = behindPrelut(signal, prelut(signal, 33, -7.0, kPrelutEntries));
+  const Signal axes = behindShaperCurve(signal, shaperCurve(signal, 33, -7.0, kShaperCurveEntries));
   const PixelProcessor there(axes.fromEngine);
   const PixelProcessor back(axes.toEngine);
   for (const float light : {0.0005F, 0.002F, 0.03F, 0.18F, 1.0F, 5.0F}) {
@@ -79,20 +80,21 @@ TEST_P(PrelutTest, ComesBack) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, PrelutTest, testing::ValuesIn(spectral::allLogEncodings()), [](const auto& instance) {
-  std::string name = spectral::nameOf(instance.param);
-  std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0; });
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, ShaperCurveTest, testing::ValuesIn(spectral::allLogEncodings()),
+                         [](const auto& instance) {
+                           std::string name = spectral::nameOf(instance.param);
+                           std::erase_if(name, [](unsigned char c) { return std::isalnum(c) == 0; });
+                           return name;
+                         });
 
-TEST(LeadingPrelutTest, IsACurveFromZeroToOneBeforeSomething) {
+TEST(LeadingShaperCurveTest, IsACurveFromZeroToOneBeforeSomething) {
   const auto group = OCIO::GroupTransform::Create();
-  EXPECT_EQ(leadingPrelut(group), nullptr);
+  EXPECT_EQ(leadingShaperCurve(group), nullptr);
   const auto curve = OCIO::Lut1DTransform::Create(3, false);
   group->appendTransform(curve);
-  EXPECT_EQ(leadingPrelut(group), nullptr) << "nothing follows";
+  EXPECT_EQ(leadingShaperCurve(group), nullptr) << "nothing follows";
   group->appendTransform(OCIO::MatrixTransform::Create());
-  EXPECT_NE(leadingPrelut(group), nullptr);
+  EXPECT_NE(leadingShaperCurve(group), nullptr);
   const auto isOne = [&](float first, float second, float third) {
     const auto other = OCIO::Lut1DTransform::Create(3, false);
     other->setValue(0, first, first, first);
@@ -101,7 +103,7 @@ TEST(LeadingPrelutTest, IsACurveFromZeroToOneBeforeSomething) {
     const auto changed = OCIO::GroupTransform::Create();
     changed->appendTransform(other);
     changed->appendTransform(OCIO::MatrixTransform::Create());
-    return leadingPrelut(changed) != nullptr;
+    return leadingShaperCurve(changed) != nullptr;
   };
   EXPECT_TRUE(isOne(0.0F, 0.7F, 1.0F));
   EXPECT_FALSE(isOne(0.1F, 0.7F, 1.0F));
@@ -111,7 +113,7 @@ TEST(LeadingPrelutTest, IsACurveFromZeroToOneBeforeSomething) {
   reversed->appendTransform(curve->createEditableCopy());
   reversed->getTransform(0)->setDirection(OCIO::TRANSFORM_DIR_INVERSE);
   reversed->appendTransform(OCIO::MatrixTransform::Create());
-  EXPECT_EQ(leadingPrelut(reversed), nullptr);
+  EXPECT_EQ(leadingShaperCurve(reversed), nullptr);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cube/prelut.h"
+#include "cube/shaper_curve.h"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,7 @@ std::vector<double> lightOfSignals(const Signal& signal, int count) {
 
 }  // namespace
 
-OCIO::Lut1DTransformRcPtr prelut(const Signal& signal, int size, double lowestStop, int entries) {
+OCIO::Lut1DTransformRcPtr shaperCurve(const Signal& signal, int size, double lowestStop, int entries) {
   const double dark = kMiddleGrey * std::exp2(lowestStop - kStopsBelow);
   const std::vector<double> light = lightOfSignals(signal, entries);
   const auto curve = [dark](double positive) { return std::log2(positive / dark + 1.0); };
@@ -50,13 +50,13 @@ OCIO::Lut1DTransformRcPtr prelut(const Signal& signal, int size, double lowestSt
   return table;
 }
 
-Signal behindPrelut(const Signal& signal, const OCIO::ConstTransformRcPtr& prelut) {
-  const OCIO::TransformRcPtr back = prelut->createEditableCopy();
+Signal behindShaperCurve(const Signal& signal, const OCIO::ConstTransformRcPtr& shaperCurve) {
+  const OCIO::TransformRcPtr back = shaperCurve->createEditableCopy();
   back->setDirection(OCIO::TRANSFORM_DIR_INVERSE);
-  return {chained({back, signal.toEngine}), chained({signal.fromEngine, prelut})};
+  return {chained({back, signal.toEngine}), chained({signal.fromEngine, shaperCurve})};
 }
 
-OCIO::ConstLut1DTransformRcPtr leadingPrelut(const OCIO::ConstGroupTransformRcPtr& group) {
+OCIO::ConstLut1DTransformRcPtr leadingShaperCurve(const OCIO::ConstGroupTransformRcPtr& group) {
   if (group->getNumTransforms() < 2) {
     return nullptr;
   }
