@@ -29,6 +29,7 @@ SECTIONS = {
     "transforms": ("Error against time, every representation", "accuracy"),
     "bands": ("How many bands", "accuracy"),
     "recovery": ("Other recoveries in the same pipeline", "accuracy"),
+    "uplifts": ("Uplifts on skin", "accuracy"),
     "matching": ("Matching shots: robust or accurate", "accuracy"),
     "balance": ("How the shot was balanced", "accuracy"),
     "robustness": ("Gain, energy and pixels of noise", "accuracy"),

@@ -24,7 +24,7 @@ class Target:
         """The figure, or nothing where the section does not hold it."""
         try:
             return float(self.figure(figures))
-        except (KeyError, IndexError, ValueError, TypeError):
+        except (KeyError, IndexError, ValueError, TypeError, StopIteration):
             return None
 
     def holds(self, value):
@@ -52,6 +52,10 @@ def _map_p99_share(f):
 
 def _map_error(statistic):
     return lambda f: _largest(row["candidates"]["metamer map"]["error"]["all"][statistic] for row in f["rows"])
+
+
+def _uplift_time(f, method):
+    return next(row["ns"] for row in f["times"] if row["method"] == method)
 
 
 def _cubes(f, kind, size, value):
@@ -132,6 +136,9 @@ TARGETS = (
     Target("solver", "exact engine, 81 bands, scene natural, photographs, µs a colour", "<=", 6, lambda f: _engine(f, "natural")),
     Target("solver", "exact engine, 81 bands, scene smooth, photographs, µs a colour", "<=", 1.5, lambda f: _engine(f, "smooth")),
     Target("solver", "times as fast as colour-science's Meng 2015", ">=", 1e5, _meng),
+    *(Target("uplifts", f"uplift {name}, ns a colour", "<=", asked, lambda f, n=name: _uplift_time(f, n),
+             "measured while others' work held both cores")
+      for name, asked in (("mallett", 30), ("smits", 100), ("otsu", 100), ("jakob", 5000), ("jakob table, coefficients", 60))),
     Target("build", "building a map, slowest lights, s", "<=", 0.5, lambda f: _largest(r["seconds"] for r in f), BUILD),
     Target("kernel", "map's speed over OCIO's log + 33³, least", ">=", 2.5,
            _kernel(lambda c: c["map_is_faster_by"], "OCIO log + 33^3"), TABLE_COST),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A C door to the uplifts, for bench/uplifts.py.
+// A C door to the uplifts, for bench/sections/uplifts.py.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>

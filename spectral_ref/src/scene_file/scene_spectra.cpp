@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_file/scene_spectra.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/optical_constants.h"
 #include "metamer/spectral/spectrum.h"
+#include "metamer/spectral/uplift.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -39,6 +41,31 @@ auto lookUp(const SceneValue& value, const Look& look) {
   } catch (const InputError& error) {
     throw value.error("", error.what());
   }
+}
+
+/// The reflectance that a published uplift gives a colour: linear Rec.709, white the perfect reflector under D65.
+DomainSamples uplifted(const SceneValue& rgb, const std::optional<SceneValue>& method,
+                       const spectral::DataLibrary& library) {
+  /// What curves miss 0 and 1 by for black and white; all else is the method's own.
+  constexpr double kRounding = 2e-3;
+  const std::vector<double> colour = rgb.numbers(0.0, 1.0);
+  if (colour.size() != 3) {
+    throw rgb.error("", "must be three numbers from 0 to 1, linear Rec.709");
+  }
+  const auto uplift = lookUp(method.value_or(rgb), [&] {
+    return spectral::makeUplift(spectral::upliftMethodNamed(method ? method->text() : "jakob"), library);
+  });
+  std::vector<double> values(uplift->wavelengthsNm().size());
+  uplift->spectra(colour, values);
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (*least < -kRounding || *most > 1 + kRounding) {
+    throw rgb.error("", "gets a spectrum from " + std::to_string(*least) + " to " + std::to_string(*most) +
+                            ", which no surface has; use 'uplift: jakob'");
+  }
+  for (double& value : values) {
+    value = std::clamp(value, 0.0, 1.0);
+  }
+  return Spectrum(rgb.field(), SpectralQuantity::Reflectance, uplift->wavelengthsNm(), values).onDomain();
 }
 
 /// Radiance beyond this, or a sum of many such, is beyond single precision's comfort.
@@ -106,7 +133,7 @@ DomainSamples SceneSpectra::fromLibrary(const SceneValue& value, const std::stri
 
 DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
   const SceneSection section(definition, {"illuminant", "filter", "density", "reflectance", "sample", "wavelengths",
-                                          "values", "constant", "file", "scale"});
+                                          "values", "constant", "file", "rgb", "uplift", "scale"});
   const auto scaleValue = section.find("scale");
   const double scale = scaleValue ? scaleValue->number(0.0, kLargestScale) : 1.0;
   const auto refuse = [&](bool wrong, const char* what) {
@@ -115,12 +142,12 @@ DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
     }
   };
   int kinds = 0;
-  for (const char* kind : {"illuminant", "filter", "reflectance", "wavelengths", "constant", "file"}) {
+  for (const char* kind : {"illuminant", "filter", "reflectance", "wavelengths", "constant", "rgb", "file"}) {
     kinds += section.find(kind) ? 1 : 0;
   }
   if (kinds != 1) {
-    throw section.error("",
-                        "must have one of illuminant, filter, reflectance, wavelengths (with values), constant, file");
+    throw section.error(
+        "", "must have one of illuminant, filter, reflectance, wavelengths (with values), constant, rgb, file");
   }
   DomainSamples samples;
   if (const auto name = section.find("illuminant")) {
@@ -152,6 +179,9 @@ DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
     });
   } else if (const auto constant = section.find("constant")) {
     samples.setConstant(constant->number(0.0, kLargestScale));
+  } else if (const auto rgb = section.find("rgb")) {
+    refuse(use != Use::Reflectance && use != Use::Transmittance, "is the colour of a surface");
+    samples = uplifted(*rgb, section.find("uplift"), m_library);
   } else {
     const auto file = section.find("file");
     samples = lookUp(*file, [&] {
