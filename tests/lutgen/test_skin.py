@@ -100,7 +100,7 @@ class RoundTrip(Skin):
         codes = np.array([[[190, 148, 128], [90, 66, 55]]], np.uint8)
         Image.fromarray(codes).save(self.folder / "p.png")
         self.estimate(albedo="p.png", maps="p.exr")
-        lutgen("skin", "edit", "p.exr", "-o", "q.png", "-d", "uint8", folder=self.folder)
+        lutgen("skin", "edit", "p.exr", "-o", "q.png", folder=self.folder)
         np.testing.assert_array_equal(np.asarray(Image.open(self.folder / "q.png")), codes)
 
     def test_halves_and_frames(self):

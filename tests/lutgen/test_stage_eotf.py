@@ -5,8 +5,9 @@ import json
 import unittest
 
 import numpy as np
+import OpenEXR
 
-from lutgen import LutgenTest
+from lutgen import LutgenTest, lutgen
 from stage_physics import Stage, write_chart
 
 CHANNELS = ("red", "green", "blue")
@@ -67,6 +68,42 @@ class Ramps(LutgenTest):
         for key in ("M", "Q", "N"):
             np.testing.assert_allclose(ours[key], theirs[key], rtol=0, atol=1e-9 * np.abs(theirs[key]).max())
         np.testing.assert_allclose(ours["environment_signal"], np.array(ours["environment_drive"]) ** (1 / 2.4), rtol=1e-6)
+
+    def test_inline_ramps_and_the_signal(self):
+        """Rows in the stage file are what a CSV of them is; PREFIX_signal has what is sent for every drive."""
+        for name in ("2.2", "PQ"):
+            with self.subTest(name):
+                by_file = self.solve(EOTFS[name], 0.01)
+                rows = {}
+                for channel in CHANNELS:
+                    lines = (self.folder / f"ramp_{channel}.csv").read_text().splitlines()[1:]
+                    rows[channel] = "[" + ", ".join(f"[{line}]" for line in lines) + "]"
+                self.stage.write(self.folder, extra="ramps: {" + ", ".join(f"{c}: {rows[c]}" for c in CHANNELS) + "}\n")
+                self.assertWorks("stage", "solve", "stage.yaml", "-o", "in.json", "--samples", 0, "--as-captured", "--luts", "w")
+                ours = json.loads((self.folder / "in.json").read_text())
+                self.assertEqual(ours["eotf"], by_file["eotf"])
+                self.assertEqual(ours["environment_signal"], by_file["environment_signal"])
+                drives = np.array([[-0.1] * 3, [0] * 3, ours["environment_drive"], [1e-3] * 3, [0.4] * 3, [1.0] * 3, [1.7] * 3])
+                for extension in ("clf", "ctf"):
+                    got = self.applied(f"w_signal.{extension}", drives)
+                    # Single precision; PQ's dark steps are steep.
+                    np.testing.assert_allclose(got[2], ours["environment_signal"], atol=2e-5)
+                    np.testing.assert_allclose(got[[0, 5]], got[[1, 6]], atol=1e-6)
+                    np.testing.assert_allclose(EOTFS[name](got[3:6]), drives[3:6], rtol=0.1)
+                self.assertFalse((self.folder / "w_signal.spimtx").exists())
+        Stage().write(self.folder, extra="ramps: {red: [[0, 0, 0], [1, 1, 0]], green: g.csv, blue: b.csv}\n")
+        self.assertFails("stage", "solve", "stage.yaml", "-o", "x.json", says=["ramps.red", "4 numbers"])
+        row = "[[-1, 0, 0, 0], [1, 1, 0, 0]]"
+        Stage().write(self.folder, extra=f"ramps: {{red: {row}, green: {row}, blue: {row}}}\n")
+        self.assertFails("stage", "solve", "stage.yaml", "-o", "x.json", says=["ramps.red '-1'", "from 0"])
+        row = "[[0, 0, 0, 0], [1, 1, 0, 0]]"
+        Stage().write(self.folder, extra=f"ramps: {{red: {row}, green: {row}, blue: {row}}}\n")
+        self.assertFails("stage", "solve", "stage.yaml", "-o", "x.json", says=["stage.yaml: ramps.red", "drives"])
+
+    def applied(self, lut, rgb):
+        OpenEXR.File({}, {"RGB": rgb[None].astype(np.float32)}).write(str(self.folder / "i.exr"))
+        self.assertEqual(lutgen("apply", lut, "i.exr", "o.exr", "--quiet", folder=self.folder).returncode, 0)
+        return OpenEXR.File(str(self.folder / "o.exr")).channels()["RGB"].pixels[0].astype(float)
 
     def test_refusals(self):
         Stage().write(self.folder, extra="ramps: {red: r.csv, green: g.csv}\n")

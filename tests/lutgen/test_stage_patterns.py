@@ -48,7 +48,7 @@ def read_png(file):
 
 
 def read_dpx(file):
-    """Codes of 8 or 16 bits, or 10 filled into words from above (SMPTE 268M, packing 1)."""
+    """Codes of 8 or 16 bits, 10 filled into words from above (SMPTE 268M, packing 1), or 12 packed into words from below."""
     data = file.read_bytes()
     order = {b"SDPX": ">", b"XPDS": "<"}[data[:4]]
     (offset,) = struct.unpack(order + "I", data[4:8])
@@ -58,6 +58,11 @@ def read_dpx(file):
         assert packing == 1
         words = np.frombuffer(data, order + "u4", width * height, offset)
         codes = np.stack([words >> shift & 1023 for shift in (22, 12, 2)], axis=-1)
+    elif bits == 12:
+        assert packing == 0 and order == "<"
+        lines = np.frombuffer(data, np.uint8, height * -(-36 * width // 32) * 4, offset).reshape(height, -1)
+        stream = np.unpackbits(lines, axis=1, bitorder="little")[:, : 36 * width].reshape(-1, 12)
+        codes = stream @ (1 << np.arange(12))
     else:
         codes = np.frombuffer(data, np.uint8 if bits == 8 else order + "u2", 3 * width * height, offset)
     return codes.reshape(height, width, 3)
@@ -83,7 +88,7 @@ class Patterns(LutgenTest):
     def test_every_code(self):
         """Every pixel of every picture is the code of its drive, and drives are as equal steps as the type holds."""
         for extension, name, full in ((".png", "", 255), (".png", "uint16", 65535), (".dpx", "", 1023),
-                                      (".dpx", "uint8", 255), (".dpx", "uint16", 65535),
+                                      (".dpx", "uint8", 255), (".dpx", "uint12", 4095), (".dpx", "uint16", 65535),
                                       (".tif", "", 65535), (".tif", "uint8", 255), (".exr", "", 0),
                                       (".exr", "float", 0)):
             with self.subTest(extension=extension, type=name):

@@ -46,6 +46,8 @@ class Editing {
     }
     if (!options.type.empty()) {
       m_type = sampleTypeNamed(options.type);
+    } else if (isSrgbFormat(formatOf(options.output))) {
+      m_type = sampleTypeNamed("uint8");  // no floats there
     }
   }
 
@@ -192,7 +194,8 @@ void addSkinEdit(CLI::App& skin) {
   addSkinCapture(*command, options->capture, "what the maps say");
   command->add_option("--output-space", options->outputSpace, "What to write; left out: linear, in the albedo's space");
   command->add_option("-d,--type", options->type,
-                      "Type of the written colours: half, float, uint8, uint10, uint12, uint16; left out: float");
+                      "Type of the written colours: half, float, uint8, uint10, uint12, uint16; left out: float, in "
+                      "PNG and JPEG uint8");
   command->add_option("--compression", options->compression,
                       "Compression of the written file: zip, piz, dwaa ...; left out: as it is");
   command->add_option("--frames", options->frames, "Frames: 1001-1100, 1-100x5, 1,3,7-9; left out: all that are there");

@@ -159,9 +159,10 @@ void addStagePatterns(CLI::App& stage) {
       ->check(CLI::Range(3, 100));
   command->add_option("--first-frame", options->firstFrame, "Number of the first frame; 1 by default")
       ->check(CLI::Range(0, 1000000));
-  command->add_option("-d,--type", options->type,
-                      "Type of the samples: half, float, uint8, uint10 (DPX), uint16; by the extension half, 10 bits "
-                      "(DPX), 8 (PNG) or 16 (TIFF)");
+  command->add_option(
+      "-d,--type", options->type,
+      "Type of the samples: half, float, uint8, uint10 or uint12 (DPX), uint16; by the extension half, 10 bits "
+      "(DPX), 8 (PNG) or 16 (TIFF)");
   command->callback([options] { writePatterns(*options); });
 }
 

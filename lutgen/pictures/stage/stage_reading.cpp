@@ -30,13 +30,15 @@ stage::StageReadings readFiles(const stage::StageDescription& stage, const spect
 }
 
 std::optional<std::array<stage::PanelEotf, 3>> fitRamps(const stage::StageDescription& stage) {
-  if (stage.ramps[0].empty()) {
+  if (!stage.ramps[0].isGiven()) {
     return std::nullopt;
   }
   std::array<stage::PanelEotf, 3> eotf;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::string file = stage.ramps[k].string();
-    const stage::DriveSeries series = stage::parseDriveSeries(spectral::readTextFile(stage.ramps[k]), file);
+    const stage::StageRamp& ramp = stage.ramps[k];
+    const std::string file = ramp.series ? stage.where + ": ramps." + kChannels[k] : ramp.file.string();
+    const stage::DriveSeries series =
+        ramp.series ? *ramp.series : stage::parseDriveSeries(spectral::readTextFile(ramp.file), file);
     try {
       eotf[k] = stage::fitEotf(series);
     } catch (const spectral::InputError& error) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -27,6 +28,21 @@ struct SolveOptions {
   std::string priority;
 };
 
+/// The inverses of the wall's EOTFs, where ramps were captured.
+std::vector<ocio::PanelSignal> signalsOf(const stage::StageCapture& capture) {
+  constexpr int kEntries = 4096;
+  std::vector<ocio::PanelSignal> signals;
+  if (capture.eotf) {
+    for (const stage::PanelEotf& eotf : *capture.eotf) {
+      signals.push_back({eotf.gamma, {}});
+      for (int i = 0; i < kEntries; ++i) {
+        signals.back().signals.push_back(eotf.driveFor(std::pow(static_cast<double>(i) / (kEntries - 1), eotf.gamma)));
+      }
+    }
+  }
+  return signals;
+}
+
 ocio::StageMatrices matricesOf(const stage::StageResult& result) {
   return {result.name,
           result.solution.wallFromContent,
@@ -34,7 +50,8 @@ ocio::StageMatrices matricesOf(const stage::StageResult& result) {
           result.solution.frustumOffset,
           result.solution.correctedFromCamera,
           result.capture.xyzFromCamera,
-          result.capture.xyzFromCamera * result.capture.cameraWhite};
+          result.capture.xyzFromCamera * result.capture.cameraWhite,
+          signalsOf(result.capture)};
 }
 
 void writeFigure(const stage::StageResult& result, const spectral::DataLibrary& library, const std::string& file) {
@@ -99,7 +116,7 @@ void addStageSolve(CLI::App& stage) {
   addPriority(*command, options->priority);
   command->add_option("--luts", options->luts,
                       "PREFIX of transforms to write: PREFIX_out_of_frustum, _in_frustum and _post_correction, each "
-                      "as .spimtx, .clf and .ctf");
+                      "as .spimtx, .clf and .ctf; with ramps PREFIX_signal, what to send for their drives");
   CLI::Option* config =
       command->add_option("--config", options->config, "OCIO config to write: the wall's spaces and the camera's look");
   command->add_option("--base", options->base, "OCIO config to add them to; a new one by default")->needs(config);

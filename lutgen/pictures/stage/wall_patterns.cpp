@@ -28,7 +28,7 @@ struct PatternFormat {
 
 const std::vector<PatternFormat>& patternFormats() {
   static const std::vector<PatternFormat> formats = {{{".exr", ".exr"}, {"half", "float"}},
-                                                     {{".dpx", ".dpx"}, {"uint10", "uint8", "uint16"}},
+                                                     {{".dpx", ".dpx"}, {"uint10", "uint12", "uint8", "uint16"}},
                                                      {{".png", ".png"}, {"uint8", "uint16"}},
                                                      {{".tif", ".tiff"}, {"uint16", "uint8"}}};
   return formats;
@@ -39,7 +39,7 @@ int codeBits(const SampleType& type) {
   return type.bits > 0 ? type.bits : type.type == TypeDesc::UINT8 ? 8 : type.type == TypeDesc::UINT16 ? 16 : 0;
 }
 
-/// What OpenImageIO is to be given for a drive: of 10 bits the 16-bit code that stands for theirs.
+/// What OpenImageIO is to be given for a drive: of 10 and 12 bits the 16-bit code that stands for theirs.
 float storedValue(double drive, const SampleType& type) {
   if (type.bits == 0) {
     return static_cast<float>(drive);

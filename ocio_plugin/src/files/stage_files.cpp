@@ -57,6 +57,26 @@ OCIO::GroupTransformRcPtr postCorrectionTransform(const StageMatrices& stage) {
   return group;
 }
 
+OCIO::GroupTransformRcPtr signalTransform(const StageMatrices& stage) {
+  auto group = OCIO::GroupTransform::Create();
+  auto range = OCIO::RangeTransform::Create();
+  range->setMinInValue(0);
+  range->setMinOutValue(0);
+  range->setMaxInValue(1);
+  range->setMaxOutValue(1);
+  group->appendTransform(range);
+  auto root = OCIO::ExponentTransform::Create();
+  root->setValue({1 / stage.signals[0].gamma, 1 / stage.signals[1].gamma, 1 / stage.signals[2].gamma, 1});
+  group->appendTransform(root);
+  auto table = OCIO::Lut1DTransform::Create(stage.signals[0].signals.size(), false);
+  for (std::size_t i = 0; i < stage.signals[0].signals.size(); ++i) {
+    table->setValue(i, static_cast<float>(stage.signals[0].signals[i]), static_cast<float>(stage.signals[1].signals[i]),
+                    static_cast<float>(stage.signals[2].signals[i]));
+  }
+  group->appendTransform(table);
+  return group;
+}
+
 std::vector<std::filesystem::path> writeStageFiles(const StageMatrices& stage, const std::filesystem::path& prefix) {
   struct Part {
     const char* suffix;
@@ -64,8 +84,9 @@ std::vector<std::filesystem::path> writeStageFiles(const StageMatrices& stage, c
     OCIO::GroupTransformRcPtr group;
     Eigen::Matrix3d matrix;
     Eigen::Vector3d offset;
+    bool isSignal = false;
   };
-  const std::array<Part, 3> parts = {
+  std::vector<Part> parts = {
       Part{"_out_of_frustum", "wall drives outside the camera's view, from camera RGB (M)",
            outOfFrustumTransform(stage), stage.wallFromContent, Eigen::Vector3d::Zero()},
       Part{"_in_frustum", "wall drives in the camera's view, from camera RGB (N and the black offset)",
@@ -73,6 +94,10 @@ std::vector<std::filesystem::path> writeStageFiles(const StageMatrices& stage, c
       Part{"_post_correction", "correction of the recorded picture, in camera RGB (Q)", postCorrectionTransform(stage),
            stage.correctedFromCamera, Eigen::Vector3d::Zero()},
   };
+  if (!stage.signals.empty()) {
+    parts.push_back({"_signal", "what is sent for wall drives, by the wall's fitted EOTF", signalTransform(stage),
+                     Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), true});
+  }
   std::vector<std::unique_ptr<spectral::PendingFile>> pending;
   const auto add = [&](const Part& part, const char* extension, const std::string& text) {
     pending.push_back(std::make_unique<spectral::PendingFile>(prefix.string() + part.suffix + extension));
@@ -82,7 +107,9 @@ std::vector<std::filesystem::path> writeStageFiles(const StageMatrices& stage, c
     const LutDescription description{stage.name + part.suffix,
                                      "metamer:" + stage.name + part.suffix,
                                      {std::string("LED stage ") + stage.name + ": " + part.use}};
-    add(part, ".spimtx", spiMatrixText(part.matrix, part.offset));
+    if (!part.isSignal) {
+      add(part, ".spimtx", spiMatrixText(part.matrix, part.offset));
+    }
     for (const char* extension : {".clf", ".ctf"}) {
       add(part, extension, lutText(lutFormat("file" + std::string(extension), ""), part.group, 0, description));
     }

@@ -122,6 +122,24 @@ class StageReader {
     return result;
   }
 
+  StageRamp ramp(const YamlSection& ramps, const YamlNode& node, const char* key) const {
+    if (node.kind != Kind::Sequence) {
+      return {file(ramps.text(node, key)), std::nullopt};
+    }
+    DriveSeries series;
+    series.rgb.resize(3, static_cast<Eigen::Index>(node.items.size()));
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      const YamlNode& row = node.items[i];
+      const auto values = numbers(ramps, row, key, 4, -kLargestValue, kLargestValue, "[0.25, 0.1, 0.02, 0]");
+      if (values[0] < 0) {
+        throw ramps.error(row, ramps.named(key), row.items[0].text, "must be the drive that was sent, a number from 0");
+      }
+      series.drives.push_back(values[0]);
+      series.rgb.col(static_cast<Eigen::Index>(i)) << values[1], values[2], values[3];
+    }
+    return {{}, series};
+  }
+
   const std::string& where() const { return m_where; }
 
  private:
@@ -258,7 +276,7 @@ StageDescription parseStage(const std::string& text, const std::string& where, c
     for (std::size_t k = 0; k < 3; ++k) {
       const YamlNode& node = section.require(
           kChannels[k], "is missing; give what the camera saw of the channel's ramp, a CSV (patch,R,G,B)");
-      stage.ramps[k] = reader.file(section.text(node, kChannels[k]));
+      stage.ramps[k] = reader.ramp(section, node, kChannels[k]);
     }
   }
   if (const YamlNode* black = top.find("black_level")) {

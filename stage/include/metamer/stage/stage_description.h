@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "metamer/stage/panel_linearity.h"
 #include "metamer/stage/wall_intervals.h"
 
 namespace metamer::stage {
@@ -23,6 +24,14 @@ struct StagePrimary {
   std::optional<Eigen::Vector3d> value;
   std::filesystem::path file;
   std::array<int, 4> box{};  ///< left, top, right, bottom; right and bottom are outside
+};
+
+/// What the camera saw of a channel at rising drives: a CSV (parseDriveSeries), or the numbers. Neither: no ramp.
+struct StageRamp {
+  std::filesystem::path file;
+  std::optional<DriveSeries> series;
+
+  bool isGiven() const { return !file.empty() || series.has_value(); }
 };
 
 /// The stage as measured spectra, in place of captures. Names or files, as DataLibrary takes them, or model LEDs.
@@ -59,7 +68,7 @@ struct StageDescription {
   std::array<StagePrimary, 3> primaries;
   std::array<StageChart, 3> charts;
   StageChart target;
-  std::array<std::filesystem::path, 3> ramps;  ///< a CSV a channel (parseDriveSeries); all empty: none
+  std::array<StageRamp, 3> ramps;
   StageLayout layout;
   double widthM = 1;
   double heightM = 1;
