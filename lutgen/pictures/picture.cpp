@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/png_check.h"
 #include "space_names.h"
 
 namespace metamer::lutgen {
@@ -26,14 +28,24 @@ std::array<int, 3> colourChannels(const OIIO::ImageSpec& spec, const std::string
   return {0, 1, 2};
 }
 
-Picture::Picture(const std::filesystem::path& file) : m_pixels(file.string()) {
+namespace {
+
+/// The file's name, once it is known to be none that its library would talk about.
+std::string checked(const std::filesystem::path& file) {
+  spectral::refuseBrokenPng(file.string());
+  return file.string();
+}
+
+}  // namespace
+
+Picture::Picture(const std::filesystem::path& file) : m_pixels(checked(file)) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
     static_cast<void>(m_pixels.geterror());  // else OpenImageIO says it as well, on stdout
     throw InputError(file.string(), "", "", "is not there; check the path");
   }
   if (!m_pixels.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
-    throw InputError(file.string(), "", "", "cannot be read: " + m_pixels.geterror());
+    throw InputError(file.string(), "", "", "cannot be read: " + spectral::pictureReason(m_pixels.geterror()));
   }
   if (m_pixels.nsubimages() > 1) {
     throw InputError(file.string(), "parts", std::to_string(m_pixels.nsubimages()),

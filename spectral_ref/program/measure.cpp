@@ -12,6 +12,7 @@
 
 #include "commands.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -51,7 +52,7 @@ PatchArea wholePicture(const std::string& file) {
   const auto input = OIIO::ImageInput::open(file);
   if (!input) {
     const std::string reason = OIIO::geterror();
-    throw spectral::InputError(file, "", "", "cannot be read: " + reason);
+    throw spectral::InputError(file, "", "", "cannot be read: " + spectral::pictureReason(reason));
   }
   return {"picture", 0, 0, input->spec().width, input->spec().height};
 }

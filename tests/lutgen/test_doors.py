@@ -10,6 +10,9 @@ import threading
 import time
 import unittest
 
+import numpy as np
+from PIL import Image
+
 from lutgen import LUTGEN, LutgenTest, lutgen
 
 LIGHTS = ["--illuminant-in", "D65", "--illuminant-out", "A", "--scene", "smooth", "--size", "5"]
@@ -121,6 +124,67 @@ class Outputs(LutgenTest):
         fields = ",".join(f'"k{i}":{i}' for i in range(200000))
         (self.folder / "many.json").write_text(head + "{" + fields + "}}")
         self.assertFails("diff", "many.json", "many.json", says=["certificate", "more fields"])
+
+
+CONFIG = """ocio_profile_version: 2.1
+search_path: %s
+roles: {aces_interchange: ap0, default: ap0, scene_linear: ap0}
+displays:
+  d:
+    - !<View> {name: v, colorspace: ap0}
+colorspaces:
+  - !<ColorSpace> {name: ap0, isdata: false}
+  - !<ColorSpace> {name: c, isdata: false, encoding: log, to_scene_reference: %s}
+"""
+
+
+class Libraries(LutgenTest):
+    """What OpenColorIO and OpenImageIO say, or would do, behind a door: one line, with the reason alone."""
+
+    def test_configs_that_lead_nowhere(self):
+        (self.folder / "luts").mkdir()
+        (self.folder / "luts" / "zero.ctf").write_text(
+            '<ProcessList id="z" version="1.7"><Reference path="/dev/zero" inBitDepth="32f" outBitDepth="32f"/></ProcessList>')
+        for search, transform, says in (
+            ("luts", "!<FileTransform> {src: /dev/zero}", ["c.ocio", "src '/dev/zero'", "device"]),
+            ("/dev", "!<FileTransform> {src: zero}", ["c.ocio", "src 'zero'", "device"]),
+            ("luts", "!<GroupTransform> {children: [!<FileTransform> {src: zero.ctf}]}", ["zero.ctf", "/dev/zero"]),
+            ("luts", "!<ColorSpaceTransform> {src: c, dst: ap0}", ["space 'c'", "lead back to themselves"]),
+            ("luts", "!<NoTransform> {a: 1}", ["c.ocio", "At line 9", "NoTransform"]),
+            ("luts", "[", ["c.ocio", "line "]),
+        ):
+            with self.subTest(transform):
+                (self.folder / "c.ocio").write_text(CONFIG % (search, transform))
+                run = lutgen("bake", "--illuminant-in", "D65", "--illuminant-out", "A", "--size", 5, "--space", "c", "-o", "o.cube",
+                             folder=self.folder, environment={"OCIO": "c.ocio"})
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
+                for text in says:
+                    self.assertIn(text, run.stderr)
+                self.assertNotIn("yaml-cpp", run.stderr)
+                self.assertFalse((self.folder / "o.cube").exists())
+
+    def test_luts_by_the_reason_alone(self):
+        (self.folder / "a.cube").write_text("LUT_3D_SIZE 3\n0 0 0\n")
+        self.assertFails("bake", "--lut", "a.cube", "-o", "b.ctf", says=["a.cube: LUT", "entries", "export it again"])
+        run = lutgen("bake", "--lut", "a.cube", "-o", "b.ctf", folder=self.folder)
+        self.assertNotIn(str(self.folder), run.stderr)
+        self.assertNotIn("debug log", run.stderr)
+
+    def test_broken_pngs(self):
+        Image.fromarray(np.random.default_rng(1).integers(0, 255, (24, 32, 3), np.uint8)).save(self.folder / "whole.png")
+        whole = (self.folder / "whole.png").read_bytes()
+        damaged = bytearray(whole)
+        damaged[len(whole) // 2] ^= 0x10
+        (self.folder / "damaged.png").write_bytes(damaged)
+        (self.folder / "cut.png").write_bytes(whole[: len(whole) // 2])
+        (self.folder / "a.yaml").write_text(RECIPE)
+        self.assertEqual(lutgen("apply", "a.yaml", "whole.png", "b.png", folder=self.folder).returncode, 0)
+        for name, says in (("damaged.png", "damaged"), ("cut.png", "cut short")):
+            for arguments in (("apply", "a.yaml", name, "o.png"), ("compare", name, "whole.png"),
+                              ("stage", "sample", name, "-o", "o.csv", "--corners", "0,0", "9,0", "9,9", "0,9")):
+                with self.subTest(arguments=arguments):
+                    self.assertFails(*arguments, says=[name, "byte '", says, "again"])
 
 
 if __name__ == "__main__":

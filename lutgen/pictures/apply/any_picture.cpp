@@ -11,7 +11,9 @@
 
 #include "apply/sample_types.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/png_check.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::lutgen {
@@ -29,9 +31,10 @@ std::unique_ptr<ImageInput> opened(const std::string& file) {
   // Straight alpha, where the file has it, stays straight.
   ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
+  spectral::refuseBrokenPng(file);
   auto input = ImageInput::open(file, &hints);
   if (!input) {
-    throw InputError(file, "", "", "cannot be read: " + OIIO::geterror());
+    throw InputError(file, "", "", "cannot be read: " + spectral::pictureReason(OIIO::geterror()));
   }
   return input;
 }
@@ -105,7 +108,7 @@ AnyPicture::AnyPicture(const std::filesystem::path& file, std::int64_t mostPixel
     }
   }
   if (m_parts.empty()) {
-    throw InputError(m_file, "", "", "cannot be read: " + input->geterror());
+    throw InputError(m_file, "", "", "cannot be read: " + spectral::pictureReason(input->geterror()));
   }
 }
 
@@ -249,7 +252,7 @@ void AnyPicture::read(ImageInput& input, std::size_t index) {
   Part& part = m_parts[index];
   part.samples.resize(part.before.image_bytes(true));
   if (!input.read_image(static_cast<int>(index), 0, 0, part.before.nchannels, TypeDesc::UNKNOWN, part.samples.data())) {
-    throw InputError(m_file, "", "", "cannot be read: " + spectral::shortened(input.geterror(), 160));
+    throw InputError(m_file, "", "", "cannot be read: " + spectral::pictureReason(input.geterror()));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
+#include "metamer/spectral/png_check.h"
 #include "picture.h"
 
 namespace metamer::lutgen {
@@ -21,9 +23,10 @@ EnvironmentPicture::EnvironmentPicture(std::filesystem::path file) : m_file(std:
   if (!std::filesystem::exists(m_file, ignored)) {
     throw InputError(m_file.string(), "", "", "is not there; check the path");
   }
+  spectral::refuseBrokenPng(m_file.string());
   m_input = OIIO::ImageInput::open(m_file.string());
   if (!m_input) {
-    throw InputError(m_file.string(), "", "", "cannot be read: " + OIIO::geterror());
+    throw InputError(m_file.string(), "", "", "cannot be read: " + spectral::pictureReason(OIIO::geterror()));
   }
   const OIIO::ImageSpec& spec = m_input->spec();
   m_colours = colourChannels(spec, m_file.string());
@@ -49,7 +52,7 @@ void EnvironmentPicture::read(int first, int count, Eigen::Matrix3Xf& rgb) {
                                                         OIIO::TypeDesc::FLOAT, m_buffer.data());
   if (!isRead) {
     throw InputError(m_file.string(), "rows", std::to_string(first),
-                     "cannot be read: " + (m_tiles ? m_tiles->geterror() : m_input->geterror()));
+                     "cannot be read: " + spectral::pictureReason(m_tiles ? m_tiles->geterror() : m_input->geterror()));
   }
   rgb.resize(3, static_cast<Eigen::Index>(pixels));
   for (std::size_t i = 0; i < pixels; ++i) {

@@ -12,6 +12,7 @@
 #include "metamer/ocio/shaper.h"
 #include "metamer/ocio/working_space.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 #include "metamer/spectral/missing_file_error.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/spectral_files.h"
@@ -152,7 +153,7 @@ ComparedTransform comparedLook(const std::string& name, const std::string& look,
   try {
     result.apply = throughOcio(config->getProcessor(transform)->createGroupTransform());
   } catch (const OCIO::Exception& error) {
-    throw InputError(name, "look", look, std::string("cannot be built: ") + error.what());
+    throw InputError(name, "look", look, "cannot be built: " + spectral::colourReason(error.what()));
   }
   return result;
 }

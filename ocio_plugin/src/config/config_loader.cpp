@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 
 namespace metamer::ocio {
 
@@ -65,7 +66,7 @@ void build(const OCIO::ConstConfigRcPtr& config, const ConfigItem& item, const s
     const auto named = config->getNamedTransform(namedTransformName(item.name).c_str());
     config->getProcessor(named->getTransform(OCIO::TRANSFORM_DIR_FORWARD))->getDefaultCPUProcessor();
   } catch (const OCIO::Exception& error) {
-    throw InputError(where, "look", item.name, std::string("cannot be built: ") + error.what());
+    throw InputError(where, "look", item.name, "cannot be built: " + spectral::colourReason(error.what()));
   }
 }
 
@@ -82,7 +83,7 @@ bool checkLoads(const std::string& text, const ConfigFacts& facts, const std::fi
       build(config, item, where);
     }
   } catch (const OCIO::Exception& error) {
-    throw InputError(where, "config", "", std::string("OCIO refuses it: ") + error.what());
+    throw InputError(where, "config", "", "OCIO refuses it: " + spectral::colourReason(error.what()));
   }
   return known;
 }

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 #include "metamer/spectral/missing_file_error.h"
 #include "metamer/spectral/text.h"
+#include "operators/config_files.h"
 
 namespace metamer::ocio {
 namespace {
@@ -23,11 +25,13 @@ OCIO::ConstConfigRcPtr read(const std::string& name, const std::string& where, c
     throw spectral::MissingFileError(where, "config", value, "there is no such file; " + remedy);
   }
   try {
-    return OCIO::Config::CreateFromFile(name.c_str());
+    OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(name.c_str());
+    refuseEndlessFiles(*config, value.empty() ? where : value);
+    return config;
   } catch (const OCIO::Exception& error) {
-    throw spectral::InputError(
-        where, "config", value,
-        std::string("cannot be read by OpenColorIO ") + OCIO::GetVersion() + ": " + error.what() + "; " + remedy);
+    throw spectral::InputError(where, "config", value,
+                               std::string("cannot be read by OpenColorIO ") + OCIO::GetVersion() + ": " +
+                                   spectral::colourReason(error.what()) + "; " + remedy);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 #include "metamer/spectral/missing_file_error.h"
 #include "operators/lut_file.h"
 
@@ -19,7 +20,7 @@ PixelProcessor::PixelProcessor(const OCIO::ConstTransformRcPtr& transform) {
         static_cast<OCIO::OptimizationFlags>(OCIO::OPTIMIZATION_DEFAULT & ~OCIO::OPTIMIZATION_FAST_LOG_EXP_POW);
     m_processor = processor->getOptimizedCPUProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, flags);
   } catch (const OCIO::Exception& error) {
-    throw spectral::InputError("OpenColorIO", "", "", error.what());
+    throw spectral::InputError("OpenColorIO", "", "", spectral::colourReason(error.what()));
   }
 }
 
@@ -37,8 +38,9 @@ PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
     return PixelProcessor(transform);
   } catch (const spectral::InputError& error) {
     const std::string remedy = remedyOfLut(file);
-    throw spectral::InputError(file.string(), "LUT", "",
-                               "cannot be read: " + (remedy.empty() ? std::string(error.what()) : remedy));
+    throw spectral::InputError(
+        file.string(), "LUT", "",
+        "cannot be read: " + (remedy.empty() ? error.what() + std::string("; export it again") : remedy));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/text.h"
 #include "operators/interchange.h"
@@ -45,7 +46,7 @@ WorkingSpace configSpace(const std::string& name, const OCIO::ConstColorSpaceRcP
     working.toEngine = config->getProcessor(space->getName(), kInterchangeRole)->createGroupTransform();
     working.fromEngine = config->getProcessor(kInterchangeRole, space->getName())->createGroupTransform();
   } catch (const OCIO::Exception& error) {
-    throw InputError("config", "space", name, std::string("cannot be converted: ") + error.what());
+    throw InputError("config", "space", name, "cannot be converted: " + spectral::colourReason(error.what()));
   }
   working.isLinear = keepsGains(PixelProcessor(working.toEngine));
   working.isLog = !working.isLinear && spectral::lowerCase(space->getEncoding()) == "log";

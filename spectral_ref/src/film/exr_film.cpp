@@ -10,6 +10,7 @@
 
 #include "film/check_sum.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 #include "metamer/spectral/pending_file.h"
 
 namespace metamer::spectral_ref {
@@ -214,7 +215,7 @@ std::pair<Film, FilmNotes> readExrState(const std::filesystem::path& file) {
   const auto input = OIIO::ImageInput::open(where);
   if (!input) {
     const std::string reason = OIIO::geterror();
-    throw InputError(where, "", "", "cannot be read: " + reason);
+    throw InputError(where, "", "", "cannot be read: " + spectral::pictureReason(reason));
   }
   const char* remedy = "has no exact sums; render it with --samples";
   OIIO::ImageSpec spec;

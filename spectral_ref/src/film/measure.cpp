@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
 #include "metamer/spectral_ref/film.h"
 
 namespace metamer::spectral_ref {
@@ -22,12 +23,12 @@ class PictureFile {
     const auto input = OIIO::ImageInput::open(m_where);
     if (!input) {
       const std::string reason = OIIO::geterror();
-      throw InputError(m_where, "", "", "cannot be read: " + reason);
+      throw InputError(m_where, "", "", "cannot be read: " + spectral::pictureReason(reason));
     }
     m_spec = input->spec();
     m_values.resize(m_spec.image_pixels() * static_cast<std::size_t>(m_spec.nchannels));
     if (!input->read_image(0, 0, 0, m_spec.nchannels, OIIO::TypeDesc::FLOAT, m_values.data())) {
-      throw InputError(m_where, "", "", "cannot be read: " + input->geterror());
+      throw InputError(m_where, "", "", "cannot be read: " + spectral::pictureReason(input->geterror()));
     }
   }
 

@@ -9,6 +9,9 @@
 #include <system_error>
 #include <utility>
 
+#include "metamer/spectral/input_error.h"
+#include "metamer/spectral/library_words.h"
+#include "metamer/spectral/png_check.h"
 #include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/spectrum.h"
 
@@ -31,10 +34,15 @@ Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) 
   if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) {
     throw value.error("is a device, pipe or folder; give a picture file");
   }
+  try {
+    spectral::refuseBrokenPng(file.string());
+  } catch (const spectral::InputError& error) {
+    throw value.error("", error.what());
+  }
   const auto input = OIIO::ImageInput::open(file.string());
   if (!input) {
     const std::string reason = OIIO::geterror();
-    throw value.error("", "'" + file.string() + "' cannot be read: " + reason);
+    throw value.error("", "'" + file.string() + "' cannot be read: " + spectral::pictureReason(reason));
   }
   const OIIO::ImageSpec& spec = input->spec();
   constexpr std::uint64_t kMostPixels = 1U << 26U;
@@ -48,7 +56,7 @@ Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) 
   Pixels pixels{spec.width, spec.height, spec.nchannels, spec.channelnames, {}};
   pixels.values.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.values.data())) {
-    throw value.error("", "'" + file.string() + "' cannot be read: " + input->geterror());
+    throw value.error("", "'" + file.string() + "' cannot be read: " + spectral::pictureReason(input->geterror()));
   }
   for (const float v : pixels.values) {
     if (!std::isfinite(v)) {
