@@ -31,6 +31,7 @@ SECTIONS = {
     "recovery": ("Other recoveries in the same pipeline", "accuracy"),
     "uplifts": ("Uplifts on skin", "accuracy"),
     "matching": ("Matching shots: robust or accurate", "accuracy"),
+    "pairs": ("Colours whose spectra are known", "accuracy"),
     "balance": ("How the shot was balanced", "accuracy"),
     "robustness": ("Gain, energy and pixels of noise", "accuracy"),
     "validation": ("The loop closed", "accuracy"),

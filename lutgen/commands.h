@@ -35,5 +35,6 @@ void addList(CLI::App& application);
 void addConfig(CLI::App& application);
 void addDiff(CLI::App& application);
 void addSpectrum(CLI::App& application);
+void addPairs(CLI::App& application);
 
 }  // namespace metamer::lutgen

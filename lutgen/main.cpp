@@ -23,6 +23,7 @@ void addCommands(CLI::App& application) {
   addConfig(application);
   addDiff(application);
   addSpectrum(application);
+  addPairs(application);
   for (const CommandName& command : kPictureCommands) {  // for the help alone
     command.addTo(application)->callback([] { throw CLI::ValidationError("command", "must come first"); });
   }

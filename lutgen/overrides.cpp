@@ -16,7 +16,7 @@ namespace {
 
 using spectral::InputError;
 
-constexpr const char* kSceneForms = "natural, smooth, skin[:strength[:fade]] or dataset:SET";
+constexpr const char* kSceneForms = "natural, smooth, skin[:strength[:fade]], dataset:SET or pairs:FILE[:radius]";
 
 /// A name as it is; a file by its whole path, so that it is not looked for beside the recipe.
 std::string fromWorkingFolder(const std::string& nameOrFile, const std::vector<std::string>& names) {
@@ -75,7 +75,7 @@ double dial(const std::string& name, const std::string& text, double least, doub
   return *value;
 }
 
-/// natural | smooth | skin[:strength[:fade]] | dataset:SET
+/// natural | smooth | skin[:strength[:fade]] | dataset:SET | pairs:FILE[:radius]
 sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::string>& names) {
   const std::string form = std::string("write ") + kSceneForms;
   std::vector<std::string> parts(1);
@@ -91,18 +91,22 @@ sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::strin
   }
   const bool isDataset = parts[0] == "dataset";
   const bool isSkin = parts[0] == "skin";
-  const bool isKnown = isDataset || isSkin || parts[0] == "natural" || parts[0] == "smooth";
+  const bool hasPairs = parts[0] == "pairs";
+  const bool isKnown = isDataset || isSkin || hasPairs || parts[0] == "natural" || parts[0] == "smooth";
   if (!isKnown ||
-      parts.size() > (isSkin      ? 3U
-                      : isDataset ? 2U
-                                  : 1U) ||
-      (isDataset && parts.size() < 2) || parts.back().empty()) {
+      parts.size() > (isSkin || hasPairs ? 3U
+                      : isDataset        ? 2U
+                                         : 1U) ||
+      ((isDataset || hasPairs) && parts.size() < 2) || parts.back().empty()) {
     throw InputError("--scene", "scene", text, form);
   }
   sip::RecipeScene scene;
   scene.kind = sip::sceneKindFromName(parts[0]);
-  if (isDataset) {
+  if (isDataset || hasPairs) {
     scene.set = fromWorkingFolder(parts[1], names);
+    if (parts.size() > 2) {
+      scene.radius = dial("radius", parts[2], sip::kLeastPairRadius, sip::kLargestPairRadius);
+    }
   } else if (isSkin && parts.size() > 1) {
     scene.strength = dial("strength", parts[1], 0.0, 1.0);
     if (parts.size() > 2) {

@@ -145,6 +145,23 @@ TEST_F(OfxParameters, EveryMenuEntryOfEveryMenuWorks) {
   }
 }
 
+TEST_F(OfxParameters, PairsComeFromTheirFile) {
+  const auto effect = m_host.create(0, {{"quality", "Exact"}, {"outputIlluminant", "A"}});
+  const auto natural = render(*effect);
+  effect->set("scene", "Pairs");
+  expectPassesThrough(*effect, {"pairsFile", "no file is chosen"});
+  // Two colours of every brightness that reflect in two stretches of wavelengths alone: no surface does.
+  effect->set("pairsFile", write("pairs.csv",
+                                 "nm,one,two\n380,0,0.9\n440,0,0.9\n441,0.9,0\n580,0.9,0\n581,0,0.9\n"
+                                 "780,0,0.9\n"));
+  effect->set("pairsRadius", 4.0);
+  const auto paired = render(*effect);
+  EXPECT_EQ(effect->message(), "");
+  EXPECT_NE(paired, natural);
+  effect->set("pairsFile", write("bad.csv", "pair,light,X,Y,Z\ncoat,D65,9,9,9\n"));
+  expectPassesThrough(*effect, {"bad.csv", "coat under D65"});
+}
+
 TEST_F(OfxParameters, WhatHasNoSayIsGreyedOut) {
   const auto effect = m_host.create(0);
   const auto isEnabled = [&](const char* name) {
@@ -161,6 +178,10 @@ TEST_F(OfxParameters, WhatHasNoSayIsGreyedOut) {
   effect->set("scene", "Data set");
   EXPECT_FALSE(isEnabled("priorStrength"));
   EXPECT_TRUE(isEnabled("sceneSet"));
+  EXPECT_FALSE(isEnabled("pairsFile"));
+  effect->set("scene", "Pairs");
+  EXPECT_TRUE(isEnabled("pairsFile"));
+  EXPECT_TRUE(isEnabled("pairsRadius"));
   effect->set("recipeFile", std::string("day.yaml"));
   EXPECT_FALSE(isEnabled("outputTemperature"));
   EXPECT_FALSE(isEnabled("space"));

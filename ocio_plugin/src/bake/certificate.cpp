@@ -47,14 +47,24 @@ Json pipelineJson(const sip::RecipePipeline& pipeline) {
       {"illuminant", portable(pipeline.illuminant)}, {"filters", filters}, {"observer", portable(pipeline.observer)}};
 }
 
+/// The kind of scene: where it is of pairs, the one below them.
+sip::ReferenceScene::Kind kindBelowPairs(const sip::RecipeScene& scene) {
+  return scene.kind == sip::ReferenceScene::Kind::Pairs ? scene.over : scene.kind;
+}
+
 Json recipeJson(const sip::Recipe& recipe) {
   Json output = pipelineJson(recipe.output);
   output["adaptation"] = recipe.adaptation;
   Json scene = {{"kind", sip::nameOf(recipe.scene.kind)}};
-  if (recipe.scene.kind == sip::ReferenceScene::Kind::Dataset) {
+  const bool hasPairs = recipe.scene.kind == sip::ReferenceScene::Kind::Pairs;
+  if (hasPairs || recipe.scene.kind == sip::ReferenceScene::Kind::Dataset) {
     scene["set"] = portable(recipe.scene.set);
   }
-  if (recipe.scene.kind == sip::ReferenceScene::Kind::Skin) {
+  if (hasPairs) {
+    scene["over"] = sip::nameOf(recipe.scene.over);
+    scene["radius"] = recipe.scene.radius;
+  }
+  if (kindBelowPairs(recipe.scene) == sip::ReferenceScene::Kind::Skin) {
     scene["strength"] = recipe.scene.strength;
     scene["fade"] = recipe.scene.fade;
   }
@@ -257,11 +267,14 @@ std::vector<std::string> Certificate::lines() const {
                 error.p99, error.max, probes.lowestStop, probes.highestStop);
   std::array<char, 48> scene{};
   std::snprintf(scene.data(), scene.size(),
-                recipe.scene.kind == sip::ReferenceScene::Kind::Skin ? " %.4g, fade %.4g" : "", recipe.scene.strength,
-                recipe.scene.fade);
+                kindBelowPairs(recipe.scene) == sip::ReferenceScene::Kind::Skin ? " %.4g, fade %.4g" : "",
+                recipe.scene.strength, recipe.scene.fade);
   std::vector<std::string> result = {
       "metamer " + toolVersion() + ": " + side(recipe.input) + " -> " + side(recipe.output) + ", scene " +
-          sip::nameOf(recipe.scene.kind) + scene.data(),
+          (recipe.scene.kind == sip::ReferenceScene::Kind::Pairs
+               ? "pairs " + portable(recipe.scene.set) + " over " + sip::nameOf(recipe.scene.over)
+               : sip::nameOf(recipe.scene.kind)) +
+          scene.data(),
       "space " + recipe.space + ", " + nameOf(representation) +
           (size > 0 ? ", " + std::to_string(size) + " nodes a side, " + (fitted ? "fitted" : "sampled") : "") +
           (shaper.empty() ? "" : ", shaper " + shaper) +
@@ -338,8 +351,12 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
   };
   addPipeline("input", recipe.input);
   addPipeline("output", recipe.output);
-  switch (recipe.scene.kind) {
+  if (recipe.scene.kind == sip::ReferenceScene::Kind::Pairs) {
+    add("scene.set", "reflectances", recipe.scene.set);
+  }
+  switch (kindBelowPairs(recipe.scene)) {
     case sip::ReferenceScene::Kind::Smooth:
+    case sip::ReferenceScene::Kind::Pairs:
       break;
     case sip::ReferenceScene::Kind::Dataset:
       add("scene.set", "reflectances", recipe.scene.set);
@@ -347,7 +364,7 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
     case sip::ReferenceScene::Kind::Natural:
     case sip::ReferenceScene::Kind::Skin: {
       // All sets of the library, by one hash of theirs.
-      const bool isSkin = recipe.scene.kind == sip::ReferenceScene::Kind::Skin;
+      const bool isSkin = kindBelowPairs(recipe.scene) == sip::ReferenceScene::Kind::Skin;
       std::string hashes;
       for (const std::string& name : library.reflectanceSetNames()) {
         if (!isSkin && name == "virtual skins") {
@@ -359,7 +376,8 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
       provenance.name = isSkin ? "all measured reflectances, model skins and virtual skins"
                                : "all measured reflectances and model skins";
       provenance.sha256 = sha256(hashes);
-      inputs.push_back({"scene.set", std::move(provenance)});
+      inputs.push_back(
+          {recipe.scene.kind == sip::ReferenceScene::Kind::Pairs ? "scene.over" : "scene.set", std::move(provenance)});
       break;
     }
   }

@@ -91,10 +91,15 @@ class RecipeReader {
       scene.kind = sip::ReferenceScene::Kind::Skin;
       scene.strength = m_values.number("priorStrength", m_time);
       scene.fade = m_values.number("skinFade", m_time);
+    } else if (kind == kPairs) {
+      scene.kind = sip::ReferenceScene::Kind::Pairs;
+      scene.set = file("pairsFile", "scene");
+      scene.radius = m_values.number("pairsRadius", m_time);
     } else if (kind == kNatural || kind == kSmooth) {
       scene.kind = kind == kSmooth ? sip::ReferenceScene::Kind::Smooth : sip::ReferenceScene::Kind::Natural;
     } else {
-      throw InputError("", "scene", kind, "is no reference scene any more; choose Natural, Skin, Smooth or Data set");
+      throw InputError("", "scene", kind,
+                       "is no reference scene any more; choose Natural, Skin, Pairs, Smooth or Data set");
     }
     return scene;
   }
@@ -173,6 +178,8 @@ class SpectralTransfer final : public Effect {
     values.enable("sceneFile", byMenus && scene == kDataset && values.menu("sceneSet", 0) == kFromFile);
     values.enable("priorStrength", byMenus && scene == kSkin);
     values.enable("skinFade", byMenus && scene == kSkin);
+    values.enable("pairsFile", byMenus && scene == kPairs);
+    values.enable("pairsRadius", byMenus && scene == kPairs);
   }
 
  private:

@@ -69,10 +69,11 @@ std::vector<Parameter> spectralTransferParameters(const Catalogue& catalogue) {
   const std::string scene = "sceneGroup";
   parameters.push_back(makeGroup(scene, "Objects in the picture", false));
   parameters.push_back(
-      makeMenu("scene", "Reference scene", scene, {kSmooth, kDataset, kNatural, kSkin}, kNatural,
+      makeMenu("scene", "Reference scene", scene, {kSmooth, kDataset, kNatural, kSkin, kPairs}, kNatural,
                "Which reflectance a colour is taken to have. Natural: smooth, and beyond that as "
                "measured surfaces and skins of the colour are. Skin: among skins' colours, as skins are. Smooth: the "
-               "smoothest that has it. Data set: measured ones, interpolated."));
+               "smoothest that has it. Data set: measured ones, interpolated. Pairs: Natural, and exactly the "
+               "spectra of a file at their colours."));
   parameters.push_back(makeMenu("sceneSet", "Reflectances", scene, withFirst({kFromFile}, catalogue.reflectanceSets),
                                 "colorchecker", "Measured reflectances, for Data set."));
   parameters.push_back(
@@ -85,6 +86,12 @@ std::vector<Parameter> spectralTransferParameters(const Catalogue& catalogue) {
                                   {sip::kLeastSkinFade, sip::kLargestSkinFade},
                                   "Of Skin. How far beside skin's mean colour it reaches, in standard deviations of "
                                   "skins. More finds odder skins, and takes more of what is none for skin."));
+  parameters.push_back(makeFile("pairsFile", "Pairs file", scene,
+                                "For Pairs: CSV of colours whose spectra are known, as lutgen pairs add makes."));
+  parameters.push_back(
+      makeNumber("pairsRadius", "Pairs radius", scene, sip::kDefaultPairRadius,
+                 {sip::kLeastPairRadius, sip::kLargestPairRadius}, {sip::kLeastPairRadius, 4},
+                 "Of Pairs. How far one is felt, in standard deviations of surfaces' chromaticities."));
 
   const std::string colour = "colourGroup";
   parameters.push_back(makeGroup(colour, "Colour", false));

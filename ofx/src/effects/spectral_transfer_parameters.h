@@ -18,6 +18,7 @@ inline constexpr const char* kSmooth = "Smooth";
 inline constexpr const char* kDataset = "Data set";
 inline constexpr const char* kNatural = "Natural";
 inline constexpr const char* kSkin = "Skin";
+inline constexpr const char* kPairs = "Pairs";
 inline constexpr const char* kMapQuality = "Map";
 inline constexpr const char* kExactQuality = "Exact";
 

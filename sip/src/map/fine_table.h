@@ -48,6 +48,14 @@ class FineRows {
     }
   }
 
+  /// Leaves a cell to the patches, as where they are within the tolerance at one point and it is not. A cell of other
+  /// rows is none of these.
+  void exclude(int column, int row) {
+    if (row >= m_firstRow && row < m_firstRow + m_rowCount) {
+      m_isGood[cellIndex(column, row)] = false;
+    }
+  }
+
   /// Puts the rows into a table of all nodes; where rows meet, the latter's values stand if it has any.
   void appendTo(std::vector<float>& table) const;
   /// What appendTo() takes at first.

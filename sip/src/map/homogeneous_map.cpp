@@ -14,6 +14,7 @@
 
 #include "map/adini_element.h"
 #include "map/fine_table.h"
+#include "map/known_points.h"
 #include "map/linear_cone.h"
 #include "map/map_memory_state.h"
 #include "metamer/spectral/argument_checks.h"
@@ -63,6 +64,7 @@ struct Source {
   Eigen::Matrix3d cubeFromRgb;
   Eigen::Matrix3d rgbFromCube;
   PerceptualMetric metric;
+  std::vector<KnownPoint> known = knownPoints(transform, cubeFromRgb, metric);
 };
 
 /// Some rows of a face's root cells, with the patches they need. Built on its own, so that the threads that build the
@@ -104,6 +106,12 @@ class Part {
       m_fine->check(
           smooth.square, [&](double u, double v) { return evaluate(smooth.patch, u, v); }, smooth.metrics,
           kFineShare * m_source.tolerance);
+    }
+    if (m_fine) {
+      for (const KnownPoint& known : m_source.known) {
+        const Eigen::Vector2d cell = (Map::kFineSide * known.place).array().min(Map::kFineSide - 0.5);
+        m_fine->exclude(static_cast<int>(cell.x()), static_cast<int>(cell.y()));
+      }
     }
     m_smooth.clear();
     m_cells.clear();
@@ -196,6 +204,19 @@ class Part {
     m_unsolved.clear();
   }
 
+  /// Of the colours whose spectra are known, in a cell.
+  double excessAtKnown(const Cell& cell) const {
+    double most = 0.0;
+    for (const KnownPoint& known : m_source.known) {
+      const Eigen::Vector2d at = (steps() * known.place - Eigen::Vector2d(cell.u, cell.v)) / cell.side;
+      if (at.minCoeff() >= 0.0 && at.maxCoeff() <= 1.0) {
+        const Eigen::Vector3d error = evaluate(cell.patch, at.x(), at.y()) - known.value;
+        most = std::max(most, (known.metric * error).norm() / m_source.tolerance);
+      }
+    }
+    return most;
+  }
+
   void addSlopes(Node& node) const {
     if (!node.hasSlopes) {
       const Eigen::Matrix3d slope = m_source.transform.slopeAt(node.point);
@@ -262,6 +283,9 @@ class Part {
       }
       cell.patch = patchOver(cell);
       cell.excess = excess(cell.patch, *middles[k], 0.5, 0.5);
+      if (m_face == Map::kFrontFace) {
+        cell.excess = std::max(cell.excess, excessAtKnown(cell));
+      }
       if (needsEdges(cell)) {
         const auto [u, v, side] = std::tuple(cell.u, cell.v, cell.side);
         edges.push_back(

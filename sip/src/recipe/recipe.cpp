@@ -7,6 +7,7 @@
 #include <set>
 #include <system_error>
 
+#include "metamer/sip/pairs.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/spectral_files.h"
@@ -62,6 +63,19 @@ RecipePipeline readPipeline(const YamlSection& section) {
   return pipeline;
 }
 
+void readOver(const YamlSection& section, RecipeScene& scene) {
+  if (const YamlNode* over = section.find("over")) {
+    const std::string name = section.text(*over, "over");
+    for (const auto kind : {ReferenceScene::Kind::Natural, ReferenceScene::Kind::Skin, ReferenceScene::Kind::Smooth}) {
+      if (name == nameOf(kind)) {
+        scene.over = kind;
+        return;
+      }
+    }
+    throw section.error(*over, section.named("over"), name, "must be natural, skin or smooth");
+  }
+}
+
 RecipeScene readScene(const YamlSection& section) {
   RecipeScene scene;
   std::string kind = nameOf(scene.kind);
@@ -74,17 +88,28 @@ RecipeScene readScene(const YamlSection& section) {
   section.read("set", scene.set);
   section.read("strength", scene.strength, 0.0, 1.0);
   section.read("fade", scene.fade, kLeastSkinFade, kLargestSkinFade);
+  const bool hasPairs = scene.kind == ReferenceScene::Kind::Pairs;
+  readOver(section, scene);
+  scene.radius = scene.over == ReferenceScene::Kind::Smooth ? kSmoothPairRadius : kDefaultPairRadius;
+  section.read("radius", scene.radius, kLeastPairRadius, kLargestPairRadius);
   if (scene.kind == ReferenceScene::Kind::Dataset) {
     section.require("set", "is missing; name a reflectance set (see: lutgen list reflectances)");
-  } else if (const YamlNode* set = section.find("set")) {
-    throw section.error(*set, section.named("set"), set->text, "has a meaning with kind dataset alone; leave it out");
+  } else if (hasPairs) {
+    section.require("set", "is missing; name the file of the colours and their spectra (see: lutgen pairs add)");
   }
-  for (const char* const name : {"strength", "fade"}) {
-    const YamlNode* dial = section.find(name);
-    if (dial != nullptr && scene.kind != ReferenceScene::Kind::Skin) {
-      throw section.error(*dial, section.named(name), dial->text, "has a meaning with kind skin alone; leave it out");
+  const bool hasSkin =
+      scene.kind == ReferenceScene::Kind::Skin || (hasPairs && scene.over == ReferenceScene::Kind::Skin);
+  const auto refuseUnless = [&](bool isMeant, const char* name, const char* kinds) {
+    if (const YamlNode* field = section.find(name); field != nullptr && !isMeant) {
+      throw section.error(*field, section.named(name), field->text,
+                          std::string("has a meaning with kind ") + kinds + " alone; leave it out");
     }
-  }
+  };
+  refuseUnless(hasPairs || scene.kind == ReferenceScene::Kind::Dataset, "set", "dataset or pairs");
+  refuseUnless(hasPairs, "radius", "pairs");
+  refuseUnless(hasPairs, "over", "pairs");
+  refuseUnless(hasSkin, "strength", "skin");
+  refuseUnless(hasSkin, "fade", "skin");
   return scene;
 }
 
@@ -179,7 +204,8 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
   output.read("adaptation", recipe.adaptation, 0.0, 1.0);
 
   if (const YamlNode* scene = top.find("scene")) {
-    recipe.scene = readScene(YamlSection(*scene, where, "scene", {"kind", "set", "strength", "fade"}));
+    recipe.scene =
+        readScene(YamlSection(*scene, where, "scene", {"kind", "set", "strength", "fade", "over", "radius"}));
   }
   if (const YamlNode* cat = top.find("cat")) {
     const std::string name = top.text(*cat, "cat");
@@ -205,9 +231,15 @@ std::string toYaml(const Recipe& recipe) {
                      "\ninput: " + toYaml(recipe.input) + "}\noutput: " + toYaml(recipe.output) +
                      ", adaptation: " + spectral::shortestNumber(recipe.adaptation) + "}\n";
   text += "scene: {kind: " + nameOf(recipe.scene.kind);
-  if (recipe.scene.kind == ReferenceScene::Kind::Dataset) {
+  const bool hasPairs = recipe.scene.kind == ReferenceScene::Kind::Pairs;
+  if (hasPairs || recipe.scene.kind == ReferenceScene::Kind::Dataset) {
     text += ", set: " + quoted(recipe.scene.set);
-  } else if (recipe.scene.kind == ReferenceScene::Kind::Skin) {
+  }
+  if (hasPairs) {
+    text += ", over: " + nameOf(recipe.scene.over) + ", radius: " + spectral::shortestNumber(recipe.scene.radius);
+  }
+  if (recipe.scene.kind == ReferenceScene::Kind::Skin ||
+      (hasPairs && recipe.scene.over == ReferenceScene::Kind::Skin)) {
     text += ", strength: " + spectral::shortestNumber(recipe.scene.strength) +
             ", fade: " + spectral::shortestNumber(recipe.scene.fade);
   }
@@ -233,13 +265,31 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
                                .skins = {},
                                .strength = recipe.scene.strength,
                                .virtualSkins = {},
-                               .fade = recipe.scene.fade},
+                               .fade = recipe.scene.fade,
+                               .pairs = {},
+                               .pairNames = {},
+                               .over = recipe.scene.over,
+                               .radius = recipe.scene.radius},
                      .training = measuredSurfaces(library),
                      .standardObserver = library.observer(kStandardObserver),
                      .balanced = recipe.balanced,
                      .daylight = library.illuminant(kDaylight)};
   switch (recipe.scene.kind) {
     case ReferenceScene::Kind::Smooth:
+      break;
+    case ReferenceScene::Kind::Pairs:
+      lookUp(recipe, "scene", [&] {
+        for (const Pair& pair : readPairs(recipe.scene.set, library, recipe.folder)) {
+          spec.scene.pairs.push_back(pair.reflectance);
+          spec.scene.pairNames.push_back(pair.name);
+        }
+        return 0;
+      });
+      spec.scene.samples = spec.training;
+      spec.scene.skins = modelSkins(library);
+      if (recipe.scene.over == ReferenceScene::Kind::Skin) {
+        spec.scene.virtualSkins = virtualSkins(library);
+      }
       break;
     case ReferenceScene::Kind::Dataset:
       spec.scene.samples =
@@ -273,6 +323,9 @@ std::vector<std::string> notesOf(const Recipe& recipe, const TransformSpec& spec
   };
   addSide("input", recipe.input, spec.input);
   addSide("output", recipe.output, spec.output);
+  for (const std::string& note : notesOfPairs(spec)) {
+    notes.push_back("scene.set " + recipe.scene.set + ": " + note);
+  }
   // Who says that the light's colour was taken out may not expect to see the next one's.
   if (recipe.balanced && recipe.balanced->kind != Balance::Kind::None && recipe.adaptation == 0.0 &&
       spectral::lowerCase(recipe.input.illuminant) != spectral::lowerCase(recipe.output.illuminant)) {

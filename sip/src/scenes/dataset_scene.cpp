@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes/dataset_scene.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <utility>
 
 #include "metamer/spectral/input_error.h"
+#include "pairs/pair_conflicts.h"
 #include "scenes/delaunay.h"
 
 namespace metamer::sip {
@@ -17,6 +19,30 @@ namespace {
 /// Samples darker than this fraction of white carry no usable chromaticity.
 constexpr double kDarkest = 1e-4;
 constexpr double kRounding = 1e-12;
+/// Least variance of the samples' chromaticities in any direction.
+constexpr double kLeastVariance = 1e-6;
+
+/// Lets samples that lie too near to one another for their spectra keep what they agree on.
+/// @param chromaticities  of the samples, white first
+/// @param deviations      of unit sum
+void settle(const std::vector<Eigen::Vector2d>& chromaticities, Eigen::MatrixXd& deviations) {
+  const auto count = static_cast<Eigen::Index>(chromaticities.size());
+  Eigen::Matrix2Xd places(2, count);
+  Eigen::MatrixXd ofMeanOne(deviations.rows(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index from = (i + 1) % count;
+    places.col(i) = chromaticities[static_cast<std::size_t>(from)];
+    ofMeanOne.col(i) = 3.0 * deviations.col(from);
+  }
+  const Eigen::Matrix2Xd centred = places.colwise() - Eigen::Vector2d(places.rowwise().mean());
+  const Eigen::Matrix2d covariance =
+      centred * centred.transpose() / static_cast<double>(count) + kLeastVariance * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d whitening = Eigen::Matrix2d(covariance.llt().matrixL()).inverse();
+  const SettledPairs settled = settledPairs(whitening * places, ofMeanOne);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    deviations.col((i + 1) % count) = settled.deviations.col(i) / 3.0;
+  }
+}
 
 }  // namespace
 
@@ -58,6 +84,7 @@ DatasetScene::DatasetScene(const SoftBoundSolver& solver, const Eigen::MatrixXd&
     m_deviations.col(i) = spectrum - solver.unclamped() * m_responses.col(i);
     chromaticities.emplace_back(m_responses.col(i).head<2>() / m_responses.col(i).sum());
   }
+  settle(chromaticities, m_deviations);
   m_triangles = delaunayTriangles(chromaticities);
   if (m_triangles.empty()) {
     throw spectral::InputError("scene", "dataset", std::to_string(reflectances.cols()) + " samples",

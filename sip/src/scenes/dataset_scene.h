@@ -10,14 +10,15 @@
 namespace metamer::sip {
 
 /// Measured spectra interpolated over chromaticity (course notes, section 5.4): Delaunay triangles in the plane of
-/// white-normalised chromaticity, linear on the cone over each. White is a sample, so neutrals stay on the perfect
-/// reflector. Samples nearer than `kMergeDistance` are averaged, each scaled to the same weight.
+/// white-normalised chromaticity, linear on the cone over each, exact at the samples. White is a sample, so neutrals
+/// stay on the perfect reflector. Samples that lie too near to one another for their spectra, or to white, keep what
+/// they agree on (SettledPairs); those nearer than `kMergeDistance` are one, averaged, each scaled to the same weight.
 ///
 /// What the interpolated spectrum deviates from the smooth one is the solver's prior; a colour outside the triangles
 /// takes the deviation of the nearest chromaticity on their hull, its own sum times.
 class DatasetScene {
  public:
-  static constexpr double kMergeDistance = 2e-3;
+  static constexpr double kMergeDistance = 1e-6;
 
   /// @param solver        gives weights and smooth spectra. Copied from, not kept.
   /// @param reflectances  B x n, at the band centres

@@ -13,8 +13,11 @@ namespace {
 
 using Kind = ReferenceScene::Kind;
 
-constexpr std::array<std::pair<Kind, const char*>, 4> kNames = {
-    {{Kind::Natural, "natural"}, {Kind::Skin, "skin"}, {Kind::Smooth, "smooth"}, {Kind::Dataset, "dataset"}}};
+constexpr std::array<std::pair<Kind, const char*>, 5> kNames = {{{Kind::Natural, "natural"},
+                                                                 {Kind::Skin, "skin"},
+                                                                 {Kind::Smooth, "smooth"},
+                                                                 {Kind::Dataset, "dataset"},
+                                                                 {Kind::Pairs, "pairs"}}};
 
 }  // namespace
 

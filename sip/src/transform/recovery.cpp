@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transform/recovery.h"
 
+#include <numbers>
 #include <optional>
 
 #include "metamer/spectral/input_error.h"
@@ -23,10 +24,15 @@ constexpr std::size_t kFewestSkins = 4;
 
 using Scene = std::variant<std::monostate, MeasuredScene, DatasetScene>;
 
+/// The kind of scene that is there beside pairs.
+ReferenceScene::Kind kindBesidePairs(const ReferenceScene& scene) {
+  return scene.kind == ReferenceScene::Kind::Pairs ? scene.over : scene.kind;
+}
+
 /// The Gaussian of a skin scene.
 std::optional<SkinGaussian> skinOf(const ReferenceScene& scene, const SoftBoundSolver& solver,
                                    const MeasuredSeeds& seeds) {
-  if (scene.kind != ReferenceScene::Kind::Skin || scene.strength == 0.0) {
+  if (kindBesidePairs(scene) != ReferenceScene::Kind::Skin || scene.strength == 0.0) {
     return std::nullopt;
   }
   return SkinGaussian(
@@ -44,8 +50,38 @@ void checkSkin(const ReferenceScene& scene) {
   }
 }
 
+/// Samples and skins of a scene with their noise, as an observer sees them.
+MeasuredSeeds seedsOf(const ReferenceScene& scene, const SoftBoundSolver& solver) {
+  const Eigen::MatrixXd samples = samplesOnBands(scene.samples, MeasuredScene::kNodeCount);
+  const Eigen::MatrixXd skins = samplesOnBands(scene.skins, MeasuredScene::kNodeCount);
+  Eigen::MatrixXd all(MeasuredScene::kNodeCount, samples.cols() + skins.cols());
+  all << samples, skins;
+  Eigen::VectorXd noise(all.cols());
+  noise << Eigen::VectorXd::Constant(samples.cols(), kSampleNoise), Eigen::VectorXd::Constant(skins.cols(), kSkinNoise);
+  return {solver.weights(), all, noise};
+}
+
+void checkPairs(const ReferenceScene& scene) {
+  if (scene.pairs.empty() || scene.pairs.size() > kMostPairs) {
+    throw InputError("recipe", "scene.pairs", std::to_string(scene.pairs.size()),
+                     "give from 1 to " + std::to_string(kMostPairs) + " pairs");
+  }
+  if (!(scene.radius >= kLeastPairRadius && scene.radius <= kLargestPairRadius)) {
+    throw InputError("recipe", "scene.radius", std::to_string(scene.radius), "give a number from 0.05 to 20");
+  }
+  const bool isOverScene = scene.over == ReferenceScene::Kind::Natural || scene.over == ReferenceScene::Kind::Skin ||
+                           scene.over == ReferenceScene::Kind::Smooth;
+  if (!isOverScene || scene.samples.empty()) {
+    throw InputError("recipe", "scene.over", nameOf(scene.over),
+                     "pairs lie over natural, skin or smooth, and need the measured surfaces to tell near from far");
+  }
+}
+
 Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
-  if (scene.kind == ReferenceScene::Kind::Smooth) {
+  if (scene.kind == ReferenceScene::Kind::Pairs) {
+    checkPairs(scene);
+  }
+  if (kindBesidePairs(scene) == ReferenceScene::Kind::Smooth) {
     return {};
   }
   if (scene.samples.empty()) {
@@ -54,29 +90,35 @@ Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
   if (!(scene.strength >= 0.0 && scene.strength <= 1.0)) {
     throw InputError("recipe", "scene.strength", std::to_string(scene.strength), "give a number from 0 to 1");
   }
-  if (scene.kind == ReferenceScene::Kind::Skin) {
+  if (kindBesidePairs(scene) == ReferenceScene::Kind::Skin) {
     checkSkin(scene);
   }
   if (scene.kind == ReferenceScene::Kind::Dataset) {
     return DatasetScene(solver, samplesOnBands(scene.samples, solver.bandCount()));
   }
-  const Eigen::MatrixXd samples = samplesOnBands(scene.samples, MeasuredScene::kNodeCount);
-  const Eigen::MatrixXd skins = samplesOnBands(scene.skins, MeasuredScene::kNodeCount);
-  Eigen::MatrixXd all(MeasuredScene::kNodeCount, samples.cols() + skins.cols());
-  all << samples, skins;
-  Eigen::VectorXd noise(all.cols());
-  noise << Eigen::VectorXd::Constant(samples.cols(), kSampleNoise), Eigen::VectorXd::Constant(skins.cols(), kSkinNoise);
-  const MeasuredSeeds seeds(solver.weights(), all, noise);
+  const MeasuredSeeds seeds = seedsOf(scene, solver);
   return MeasuredScene(solver, seeds, skinOf(scene, solver, seeds));
 }
 
 }  // namespace
 
 Recovery::Recovery(const Eigen::Matrix3Xd& weights, double relaxation, const ReferenceScene& scene)
-    : m_solver(weights, relaxation), m_scene(makeScene(scene, m_solver)) {}
+    : m_solver(weights, relaxation), m_scene(makeScene(scene, m_solver)) {
+  if (scene.kind != ReferenceScene::Kind::Pairs) {
+    return;
+  }
+  const Eigen::MatrixXd reflectances = samplesOnBands(scene.pairs, m_solver.bandCount());
+  const Eigen::Matrix3Xd responses = weights * reflectances;
+  Eigen::MatrixXd deviations = reflectances - m_solver.unclamped() * responses;
+  if (const Eigen::MatrixXd known = sceneDeviations(responses); known.cols() > 0) {
+    deviations -= known;
+  }
+  m_pairs.emplace(MeasuredSeeds::kReach / std::numbers::sqrt3 * seedsOf(scene, m_solver).differences, responses,
+                  deviations, scene.radius);
+}
 
-Eigen::MatrixXd Recovery::spectra(const Eigen::Matrix3Xd& responses, std::vector<ClampedBands>* clamped) const {
-  const Eigen::MatrixXd priors = std::visit(
+Eigen::MatrixXd Recovery::sceneDeviations(const Eigen::Matrix3Xd& responses) const {
+  return std::visit(
       [&](const auto& kind) -> Eigen::MatrixXd {
         if constexpr (requires { kind.deviations(responses); }) {
           return kind.deviations(responses);
@@ -85,6 +127,16 @@ Eigen::MatrixXd Recovery::spectra(const Eigen::Matrix3Xd& responses, std::vector
         }
       },
       m_scene);
+}
+
+Eigen::MatrixXd Recovery::spectra(const Eigen::Matrix3Xd& responses, std::vector<ClampedBands>* clamped) const {
+  Eigen::MatrixXd priors = sceneDeviations(responses);
+  if (m_pairs) {
+    if (priors.cols() == 0) {
+      priors.setZero(m_solver.bandCount(), responses.cols());
+    }
+    m_pairs->addTo(priors, responses);
+  }
   Eigen::MatrixXd spectra(m_solver.bandCount(), responses.cols());
   std::vector<SoftBoundSolver::Problem> problems(static_cast<std::size_t>(responses.cols()));
   for (Eigen::Index k = 0; k < responses.cols(); ++k) {
@@ -104,15 +156,19 @@ Eigen::MatrixXd Recovery::spectra(const Eigen::Matrix3Xd& responses, std::vector
 }
 
 BandTriple Recovery::slope(const Eigen::Vector3d& response, const ClampedBands& clamped) const {
+  if (isSmooth()) {
+    return m_solver.derivative(clamped);
+  }
+  BandTriple priorSlope = BandTriple::Zero(m_solver.bandCount(), 3);
   if (const auto* scene = std::get_if<MeasuredScene>(&m_scene)) {
-    const BandTriple priorSlope = scene->local(response).slope;
-    return m_solver.derivative(clamped, &priorSlope);
+    priorSlope = scene->local(response).slope;
+  } else if (const auto* triangles = std::get_if<DatasetScene>(&m_scene)) {
+    priorSlope = triangles->local(response).slope;
   }
-  if (const auto* scene = std::get_if<DatasetScene>(&m_scene)) {
-    const BandTriple priorSlope = scene->local(response).slope;
-    return m_solver.derivative(clamped, &priorSlope);
+  if (m_pairs) {
+    m_pairs->addTo(priorSlope, response);
   }
-  return m_solver.derivative(clamped);
+  return m_solver.derivative(clamped, &priorSlope);
 }
 
 Eigen::MatrixXd Recovery::spectraOfTraining(const Eigen::Matrix3Xd& responses) const {

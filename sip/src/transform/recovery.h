@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <mutex>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "metamer/sip/spectral_transform.h"
+#include "pairs/pair_field.h"
 #include "scenes/dataset_scene.h"
 #include "scenes/measured_scene.h"
 #include "soft_bound/soft_bound_solver.h"
@@ -24,9 +26,11 @@ class Recovery {
 
   const SoftBoundSolver& solver() const { return m_solver; }
   /// Whether it is without a scene.
-  bool isSmooth() const { return std::holds_alternative<std::monostate>(m_scene); }
-  /// Null where the scene is none.
-  const MeasuredScene* measured() const { return std::get_if<MeasuredScene>(&m_scene); }
+  bool isSmooth() const { return std::holds_alternative<std::monostate>(m_scene) && !m_pairs; }
+  /// Null where the scene is not one of these alone.
+  const MeasuredScene* measured() const { return m_pairs ? nullptr : std::get_if<MeasuredScene>(&m_scene); }
+  /// Null where there are none.
+  const PairField* pairs() const { return m_pairs ? &*m_pairs : nullptr; }
 
   /// The spectra of some responses, a column each.
   /// @param clamped  where not null, an entry a response: the bands that are below zero
@@ -38,8 +42,12 @@ class Recovery {
   Eigen::MatrixXd spectraOfTraining(const Eigen::Matrix3Xd& responses) const;
 
  private:
+  /// What a scene makes of responses that know no pairs: B x n, or empty where that is nothing.
+  Eigen::MatrixXd sceneDeviations(const Eigen::Matrix3Xd& responses) const;
+
   SoftBoundSolver m_solver;
   std::variant<std::monostate, MeasuredScene, DatasetScene> m_scene;
+  std::optional<PairField> m_pairs;
   mutable std::mutex m_mutex;
   mutable Eigen::Matrix3Xd m_trainingResponses;  // the latest
   mutable Eigen::MatrixXd m_trainingSpectra;

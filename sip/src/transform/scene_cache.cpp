@@ -24,7 +24,8 @@ struct Held {
   bool isOf(const Eigen::Matrix3Xd& otherWeights, double otherRelaxation, const ReferenceScene& other) const {
     return weights.cols() == otherWeights.cols() && weights == otherWeights && relaxation == otherRelaxation &&
            scene.kind == other.kind && scene.strength == other.strength && scene.samples == other.samples &&
-           scene.skins == other.skins && scene.fade == other.fade && scene.virtualSkins == other.virtualSkins;
+           scene.skins == other.skins && scene.fade == other.fade && scene.virtualSkins == other.virtualSkins &&
+           scene.over == other.over && scene.radius == other.radius && scene.pairs == other.pairs;
   }
 };
 

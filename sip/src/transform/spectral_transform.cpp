@@ -44,6 +44,8 @@ struct SpectralTransform::State {
   Eigen::Matrix3Xd relativeFromSpectrum;  ///< 3 x B
   std::shared_ptr<const Recovery> recovery;
   Limiter limiter{Limiter::Reach{}};
+  Cover unlimited;  ///< round the pairs that the limiter would not leave alone
+  Eigen::Matrix3Xd pairResponses;
   bool relaxed = false;
   Eigen::Matrix3d linearSlope;  ///< of the relative result where no band is clamped and the scene adds nothing
   WeightedSums seenSamples;     ///< MeasuredScene's, as the relative result sees them
@@ -79,10 +81,24 @@ struct SpectralTransform::State {
   }
   /// How the relative result before any limit changes with the response.
   Eigen::Matrix3d slopeAt(const Eigen::Vector3d& response, const Point& point) const;
-  void setLimits(const std::vector<spectral::DomainSamples>& training);
+  void setLimits(std::vector<spectral::DomainSamples> training, const std::vector<spectral::DomainSamples>& pairs);
+  /// The limiter's result, or round pairs what it would limit.
+  Eigen::Vector3d limited(const Eigen::Vector3d& relative, const Eigen::Vector3d& response,
+                          const Eigen::Vector3d& difference) const {
+    const Eigen::Vector3d within = limiter.apply(relative, difference);
+    const double share = unlimitedAt(response).value;
+    return share == 0.0 ? within : Eigen::Vector3d(within + share * (relative + difference - within));
+  }
+  Cover::Share unlimitedAt(const Eigen::Vector3d& response) const {
+    return unlimited.isEmpty() || !PairField::hasPlace(response) ? Cover::Share{}
+                                                                 : unlimited.at(recovery->pairs()->placeOf(response));
+  }
 };
 
-void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSamples>& training) {
+void SpectralTransform::State::setLimits(std::vector<spectral::DomainSamples> training,
+                                         const std::vector<spectral::DomainSamples>& pairs) {
+  const std::size_t firstPair = training.size();
+  training.insert(training.end(), pairs.begin(), pairs.end());
   // The surfaces' true responses, whatever the bands.
   const Eigen::Matrix3Xd weights = sides.inputWeights(kConvergedBandCount);
   Eigen::Matrix3Xd responses(3, static_cast<Eigen::Index>(training.size()));
@@ -100,12 +116,23 @@ void SpectralTransform::State::setLimits(const std::vector<spectral::DomainSampl
   diagnostics.reachUp = limiter.reach().up;
   diagnostics.reachDown = limiter.reach().down;
   diagnostics.reachAside = limiter.reach().aside;
-  std::size_t limited = 0;
+  std::size_t limitedCount = 0;
+  std::vector<Eigen::Index> limitedPairs;
   for (std::size_t i = 0; i < colours.size(); ++i) {
-    limited += limiter.keeps(colours[i], differences[i]) ? 0 : 1;
+    if (!limiter.keeps(colours[i], differences[i])) {
+      ++limitedCount;
+      const auto pair = static_cast<Eigen::Index>(i) - static_cast<Eigen::Index>(firstPair);
+      if (pair >= 0 && recovery->pairs()->isExact(pair)) {
+        limitedPairs.push_back(pair);
+      }
+    }
   }
   diagnostics.limitedShare =
-      static_cast<double>(limited) / static_cast<double>(std::max<std::size_t>(1, colours.size()));
+      static_cast<double>(limitedCount) / static_cast<double>(std::max<std::size_t>(1, colours.size()));
+  pairResponses = responses.rightCols(static_cast<Eigen::Index>(pairs.size()));
+  if (!limitedPairs.empty()) {
+    unlimited = recovery->pairs()->coverOf(limitedPairs);
+  }
 }
 
 Eigen::Matrix3d SpectralTransform::State::slopeAt(const Eigen::Vector3d& response, const Point& point) const {
@@ -151,7 +178,9 @@ SpectralTransform::SpectralTransform(const TransformSpec& spec, int bandCount, S
                                      : std::make_shared<const Recovery>(weights, price, spec.scene);
   state->setSlopes();
   if (!state->identity) {
-    state->setLimits(spec.training);
+    state->setLimits(spec.training, spec.scene.kind == ReferenceScene::Kind::Pairs
+                                        ? spec.scene.pairs
+                                        : std::vector<spectral::DomainSamples>{});
   }
   m_state = std::move(state);
 }
@@ -219,9 +248,9 @@ void SpectralTransform::solveTogether(std::span<Point> points) const {
     Point& point = *solved[k];
     const double scale = exposureScale(point.rgb);
     const Eigen::Vector3d relative = sides.relativeFromRgb * (scale * point.rgb);
-    point.difference =
-        m_state->relativeResult(relative, responses.col(static_cast<Eigen::Index>(k)), reflectance) - relative;
-    point.value = sides.rgbFromRelative * m_state->limiter.apply(relative, point.difference) / scale;
+    const Eigen::Vector3d response = responses.col(static_cast<Eigen::Index>(k));
+    point.difference = m_state->relativeResult(relative, response, reflectance) - relative;
+    point.value = sides.rgbFromRelative * m_state->limited(relative, response, point.difference) / scale;
   };
   for (std::size_t i = 0; i < open.size(); ++i) {
     Point& point = *solved[open[i]];
@@ -263,12 +292,20 @@ Eigen::Matrix3d SpectralTransform::slopeAt(const Point& point) const {
   }
   const State& state = *m_state;
   const Eigen::Vector3d scaled = (point.rgb.isZero(0.0) ? 1.0 : exposureScale(point.rgb)) * point.rgb;
+  const Eigen::Vector3d response = state.sides.responseFromRgb * scaled;
+  const Eigen::Vector3d relative = state.sides.relativeFromRgb * scaled;
   const Eigen::Matrix3d differenceSlope =
-      state.slopeAt(state.sides.responseFromRgb * scaled, point) * state.sides.responseFromRgb -
-      state.sides.relativeFromRgb;
-  const Limiter::Limited limited = state.limiter.limited(state.sides.relativeFromRgb * scaled, point.difference);
-  return state.sides.rgbFromRelative *
-         (limited.byColour * state.sides.relativeFromRgb + limited.byDifference * differenceSlope);
+      state.slopeAt(response, point) * state.sides.responseFromRgb - state.sides.relativeFromRgb;
+  const Limiter::Limited limited = state.limiter.limited(relative, point.difference);
+  Eigen::Matrix3d slope = limited.byColour * state.sides.relativeFromRgb + limited.byDifference * differenceSlope;
+  if (const Cover::Share share = state.unlimitedAt(response); share.value > 0.0) {
+    const Eigen::Matrix3d whole = state.sides.relativeFromRgb + differenceSlope;
+    slope +=
+        share.value * (whole - slope) +
+        (relative + point.difference - limited.value) *
+            (share.slope.transpose() * state.recovery->pairs()->placeSlope(response) * state.sides.responseFromRgb);
+  }
+  return state.sides.rgbFromRelative * slope;
 }
 
 SpectralTransform::Linearisation SpectralTransform::linearise(const Eigen::Vector3d& rgb) const {
@@ -322,6 +359,16 @@ Eigen::Matrix3d SpectralTransform::plainAdaptation() const {
 }
 Eigen::Vector3d SpectralTransform::whiteXyz() const {
   return m_state->space.whiteXyz();
+}
+std::vector<Eigen::Vector3d> SpectralTransform::knownColours() const {
+  const Eigen::Matrix3Xd known = m_state->sides.responseFromRgb.inverse() * m_state->pairResponses;
+  std::vector<Eigen::Vector3d> colours;
+  for (Eigen::Index k = 0; k < known.cols(); ++k) {
+    if (m_state->recovery->pairs()->isExact(k)) {
+      colours.emplace_back(known.col(k));
+    }
+  }
+  return colours;
 }
 SpectralTransform::Diagnostics SpectralTransform::diagnostics() const {
   return m_state->diagnostics;

@@ -101,6 +101,21 @@ TEST(RecipeTest, Defaults) {
             "keep_exposure: false\n");
 }
 
+TEST(RecipeTest, PairsReachAsFarAsTheSceneBelowThemLetsThem) {
+  const std::string start = "metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: A}\n";
+  const auto sceneOf = [&](const char* text) { return parse(start + text).scene; };
+  EXPECT_EQ(sceneOf("scene: {kind: pairs, set: a.csv}\n").over, ReferenceScene::Kind::Natural);
+  EXPECT_EQ(sceneOf("scene: {kind: pairs, set: a.csv}\n").radius, kDefaultPairRadius);
+  EXPECT_EQ(sceneOf("scene: {kind: pairs, set: a.csv, over: smooth}\n").radius, kSmoothPairRadius);
+  EXPECT_EQ(sceneOf("scene: {kind: pairs, set: a.csv, over: smooth, radius: 1.5}\n").radius, 1.5);
+  EXPECT_EQ(sceneOf("scene: {kind: pairs, set: a.csv, over: skin, strength: 0.5}\n").strength, 0.5);
+  for (const char* const scene : {"{kind: pairs, set: \"a.csv\", over: smooth, radius: 1.5}",
+                                  "{kind: pairs, set: \"a.csv\", over: skin, radius: 0.5, strength: 0.5, fade: 2.5}"}) {
+    const std::string text = toYaml(parse(start + "scene: " + scene + "\n"));
+    EXPECT_NE(text.find(std::string("scene: ") + scene), std::string::npos) << text;
+  }
+}
+
 TEST(RecipeTest, YamlReadsBackAsTheSameRecipe) {
   Recipe recipe;
   recipe.name = R"(it's "odd": [a, b] # \ {é} - ~)";
@@ -228,11 +243,11 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
       {"adaptation out of range", "metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: A, adaptation: 1.01}\n",
        "r.yaml:3: output.adaptation '1.01': must be a number from 0 to 1"},
       {"unknown scene", with("scene: {kind: smoth}\n"),
-       "r.yaml:4: scene.kind 'smoth': must be natural, skin, smooth or dataset"},
+       "r.yaml:4: scene.kind 'smoth': must be natural, skin, pairs, smooth or dataset"},
       {"set for smooth", with("scene: {kind: smooth, set: skin}\n"),
-       "r.yaml:4: scene.set 'skin': has a meaning with kind dataset alone; leave it out"},
+       "r.yaml:4: scene.set 'skin': has a meaning with kind dataset or pairs alone; leave it out"},
       {"set for the default", with("scene: {set: skin}\n"),
-       "r.yaml:4: scene.set 'skin': has a meaning with kind dataset alone; leave it out"},
+       "r.yaml:4: scene.set 'skin': has a meaning with kind dataset or pairs alone; leave it out"},
       {"dataset without set", with("scene:\n  kind: dataset\n"),
        "r.yaml:5: scene.set: is missing; name a reflectance set (see: lutgen list reflectances)"},
       {"strength for natural", with("scene: {kind: natural, strength: 0.5}\n"),
@@ -243,7 +258,16 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
        "r.yaml:4: scene.fade '2': has a meaning with kind skin alone; leave it out"},
       {"fade out of range", with("scene: {kind: skin, fade: 9}\n"),
        "r.yaml:4: scene.fade '9': must be a number from 0.5 to 4"},
-      {"radius", with("scene: {kind: skin, radius: 0.1}\n"), "r.yaml:4: key 'scene.radius': unknown"},
+      {"radius for skin", with("scene: {kind: skin, radius: 0.1}\n"),
+       "r.yaml:4: scene.radius '0.1': has a meaning with kind pairs alone; leave it out"},
+      {"radius out of range", with("scene: {kind: pairs, set: a.csv, radius: 0}\n"),
+       "r.yaml:4: scene.radius '0': must be a number from 0.05 to 20"},
+      {"pairs without set", with("scene: {kind: pairs}\n"),
+       "r.yaml:4: scene.set: is missing; name the file of the colours and their spectra (see: lutgen pairs add)"},
+      {"pairs over themselves", with("scene: {kind: pairs, set: a.csv, over: pairs}\n"),
+       "r.yaml:4: scene.over 'pairs': must be natural, skin or smooth"},
+      {"pairs over natural have no strength", with("scene: {kind: pairs, set: a.csv, strength: 1}\n"),
+       "r.yaml:4: scene.strength '1': has a meaning with kind skin alone; leave it out"},
       {"unknown cat", with("cat: cat61\n"), "r.yaml:4: cat 'cat61': must be vonkries, bradford, cat02 or cat16"},
       {"unknown balance", with("balanced: auto\n"),
        "r.yaml:4: balanced 'auto': must be camera, rgb, none, vonkries, bradford, cat02 or cat16"},

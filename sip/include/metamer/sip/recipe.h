@@ -25,9 +25,11 @@ struct RecipePipeline {
 
 struct RecipeScene {
   ReferenceScene::Kind kind = ReferenceScene::Kind::Natural;
-  std::string set;                 ///< Dataset: its reflectance set
+  std::string set;                 ///< Dataset: its reflectance set; Pairs: theirs, or a file of colours (readPairs)
   double strength = 1.0;           ///< Skin: 0 = as Natural ... 1
   double fade = kDefaultSkinFade;  ///< Skin: ReferenceScene::fade
+  ReferenceScene::Kind over = ReferenceScene::Kind::Natural;  ///< Pairs: ReferenceScene::over
+  double radius = kDefaultPairRadius;                         ///< Pairs: ReferenceScene::radius
 };
 
 /// The one description that lutgen, configs, the plugin and the validator share (docs/recipe.md). YAML:

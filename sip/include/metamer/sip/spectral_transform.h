@@ -21,6 +21,13 @@ namespace metamer::sip {
 inline constexpr double kDefaultSkinFade = 2.5;
 inline constexpr double kLeastSkinFade = 0.5;
 inline constexpr double kLargestSkinFade = 4.0;
+/// Of ReferenceScene::radius: over a scene that knows most surfaces, and over the smooth one. By cross-validation.
+inline constexpr double kDefaultPairRadius = 0.5;
+inline constexpr double kSmoothPairRadius = 2.0;
+inline constexpr double kLeastPairRadius = 0.05;
+inline constexpr double kLargestPairRadius = 20.0;
+/// More pairs take minutes to learn.
+inline constexpr std::size_t kMostPairs = 16384;
 
 /// How a tristimulus gets its spectrum (course notes, section 5.4).
 struct ReferenceScene {
@@ -29,6 +36,7 @@ struct ReferenceScene {
     Skin,     ///< the same, and among skins' chromaticities as virtual skins are
     Smooth,   ///< the smoothest spectrum
     Dataset,  ///< measured spectra, interpolated over triangles of chromaticities
+    Pairs,    ///< another of these, and colours whose spectra are known: exact at them, and round them drawn to them
   };
   Kind kind = Kind::Smooth;
   std::vector<spectral::DomainSamples> samples;            ///< reflectances; empty for Smooth
@@ -37,11 +45,16 @@ struct ReferenceScene {
   std::vector<spectral::DomainSamples> virtualSkins = {};  ///< Skin: what its Gaussian is of, at least 4
   /// Skin: how far from the skins' mean chromaticity their Gaussian reaches, in their standard deviations.
   double fade = kDefaultSkinFade;
+  std::vector<spectral::DomainSamples> pairs = {};  ///< Pairs: reflectances of the colours that are known
+  std::vector<std::string> pairNames = {};          ///< for words: as many as pairs, or none
+  Kind over = Kind::Natural;                        ///< Pairs: Natural, Skin or Smooth, whose fields hold too
+  /// Pairs: how far one is felt, in standard deviations of the measured surfaces' chromaticities under the light.
+  double radius = kDefaultPairRadius;
 };
 
 /// What a message says of any other name.
-inline constexpr const char* kSceneKindRemedy = "must be natural, skin, smooth or dataset";
-/// "natural", "skin", "smooth", "dataset". @throws spectral::InputError for any other name (lists these)
+inline constexpr const char* kSceneKindRemedy = "must be natural, skin, pairs, smooth or dataset";
+/// "natural", "skin", "smooth", "dataset", "pairs". @throws spectral::InputError for any other name (lists these)
 ReferenceScene::Kind sceneKindFromName(const std::string& name);
 std::string nameOf(ReferenceScene::Kind kind);
 
@@ -137,6 +150,8 @@ class SpectralTransform {
   Eigen::Matrix3d rgbFromOutputResponse() const;
   /// What plain chromatic adaptation would do, on RGB: what the transform keeps near to.
   Eigen::Matrix3d plainAdaptation() const;
+  /// Of a scene of pairs, the colours whose spectra are met: RGB. Empty for other scenes.
+  std::vector<Eigen::Vector3d> knownColours() const;
   /// White of the working space, Y = 1.
   Eigen::Vector3d whiteXyz() const;
 
