@@ -67,6 +67,11 @@ std::optional<HeldOutSet> judge(const TransformSpec& spec, const std::string& na
   rest.training = without(spec.training, heldOut);
   rest.scene.samples = without(spec.scene.samples, heldOut);
   rest.scene.skins = without(spec.scene.skins, heldOut);
+  rest.scene.pairs = without(spec.scene.pairs, heldOut);
+  rest.scene.pairNames = {};
+  if (rest.scene.kind == ReferenceScene::Kind::Pairs && rest.scene.pairs.empty()) {
+    rest.scene.kind = rest.scene.over;
+  }
   const bool isEmpty = rest.scene.kind != ReferenceScene::Kind::Smooth && rest.scene.samples.empty();
   if (isEmpty || rest.training.size() < static_cast<std::size_t>(Features::RowsAtCompileTime)) {
     return std::nullopt;

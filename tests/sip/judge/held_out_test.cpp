@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "sip/sip_fixture.h"
@@ -40,6 +41,18 @@ TEST(HeldOutTest, SmoothLeavesNothingOut) {
   all.training = naturalSpecOf("D65", "A").training;
   const auto sets = heldOutErrors(all, testLibrary());
   EXPECT_GT(named(sets, "skin").engine, named(heldOutErrors(naturalSpecOf("D65", "A"), testLibrary()), "skin").engine);
+}
+
+TEST(HeldOutTest, PairsAreLeftOutToo) {
+  const TransformSpec natural = naturalSpecOf("D65", "HP1");
+  TransformSpec spec = natural;
+  spec.scene.kind = ReferenceScene::Kind::Pairs;
+  spec.scene.pairs = samplesOf("colorchecker");
+  const auto without = heldOutErrors(natural, testLibrary());
+  const auto with = heldOutErrors(spec, testLibrary());
+  // Their own set is judged as if there were none; others have them.
+  EXPECT_NEAR(named(with, "colorchecker").engine, named(without, "colorchecker").engine, 1e-9);
+  EXPECT_GT(std::abs(named(with, "tm30").engine - named(without, "tm30").engine), 1e-4);
 }
 
 TEST(HeldOutTest, NothingToJudgeWhereNothingIsDone) {
