@@ -139,6 +139,11 @@ TARGETS = (
     *(Target("uplifts", f"uplift {name}, ns a colour", "<=", asked, lambda f, n=name: _uplift_time(f, n),
              "measured while others' work held both cores")
       for name, asked in (("mallett", 30), ("smits", 100), ("otsu", 100), ("jakob", 5000), ("jakob table, coefficients", 60))),
+    Target("pairs", "largest error at 24 pairs, exact engine, four lights, CIEDE2000", "<=", 1e-3,
+           lambda f: _largest(r["pairs"]["max"] for r in f if r["scene"].startswith("pairs"))),
+    *(Target("pairs", f"24 pairs over smooth, TM-30 held out, D65 to {light}, mean", "<=", asked,
+             lambda f, name=light: next(r["held_out"]["mean"] for r in f if (r["light"], r["scene"]) == (name, "pairs over smooth")))
+      for light, asked in (("A", 1.70), ("FL11", 1.90), ("HP1", 2.65), ("LED-RGB1", 1.70))),
     Target("build", "building a map, slowest lights, s", "<=", 0.5, lambda f: _largest(r["seconds"] for r in f), BUILD),
     Target("kernel", "map's speed over OCIO's log + 33³, least", ">=", 2.5,
            _kernel(lambda c: c["map_is_faster_by"], "OCIO log + 33^3"), TABLE_COST),
