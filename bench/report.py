@@ -30,6 +30,7 @@ SECTIONS = {
     "bands": ("How many bands", "accuracy"),
     "recovery": ("Other recoveries in the same pipeline", "accuracy"),
     "uplifts": ("Uplifts on skin", "accuracy"),
+    "storage": ("Spectra in few numbers", "accuracy"),
     "matching": ("Matching shots: robust or accurate", "accuracy"),
     "pairs": ("Colours whose spectra are known", "accuracy"),
     "balance": ("How the shot was balanced", "accuracy"),

@@ -58,6 +58,11 @@ def _uplift_time(f, method):
     return next(row["ns"] for row in f["times"] if row["method"] == method)
 
 
+def _stored(rows, most_bytes, figure):
+    """The best form of at most so many bytes."""
+    return min(row[figure] for row in rows if row["bytes"] <= most_bytes)
+
+
 def _cubes(f, kind, size, value):
     return {r["pair"]: r[value] for r in f if r["kind"] == kind and r["size"] == size}
 
@@ -144,6 +149,10 @@ TARGETS = (
     *(Target("pairs", f"24 pairs over smooth, TM-30 held out, D65 to {light}, mean", "<=", asked,
              lambda f, name=light: next(r["held_out"]["mean"] for r in f if (r["light"], r["scene"]) == (name, "pairs over smooth")))
       for light, asked in (("A", 1.70), ("FL11", 1.90), ("HP1", 2.65), ("LED-RGB1", 1.70))),
+    Target("storage", "223 reflectances in 20 floats, four lights, mean CIEDE2000", "<=", 0.05, lambda f: _stored(f["surfaces"], 80, "mean")),
+    Target("storage", "the same in 20 bytes", "<=", 0.15, lambda f: _stored(f["surfaces"], 20, "mean")),
+    Target("storage", "the same in 12 floats", "<=", 0.20, lambda f: _stored(f["surfaces"], 48, "mean")),
+    Target("storage", "every illuminant in 20 floats, the ColorChecker under the worst", "<=", 0.1, lambda f: _stored(f["lights"], 80, "worst")),
     Target("build", "building a map, slowest lights, s", "<=", 0.5, lambda f: _largest(r["seconds"] for r in f), BUILD),
     Target("kernel", "map's speed over OCIO's log + 33³, least", ">=", 2.5,
            _kernel(lambda c: c["map_is_faster_by"], "OCIO log + 33^3"), TABLE_COST),

@@ -212,6 +212,22 @@ std::string field(const std::string& name) {
   return quoted + '"';
 }
 
+/// Samples `step` apart. A light's are means about their places, weighed as linear interpolation will use them: power
+/// between them is kept, which lines would fall through.
+double sampleAt(const DomainSamples& samples, int place, int step, bool isLight) {
+  if (!isLight) {
+    return samples[place];
+  }
+  double sum = 0;
+  double weights = 0;
+  for (int k = std::max(0, place - step + 1); k < std::min(spectral::kDomainSize, place + step); ++k) {
+    const double weight = step - std::abs(k - place);
+    sum += weight * samples[k];
+    weights += weight;
+  }
+  return sum / weights;
+}
+
 void convert(const std::string& file, const std::string& output, int step) {
   const StoredSet set = spectral::readStorage(file);
   const spectral::SpectrumStorage storage(spectral::DataLibrary::openDefault());
@@ -228,7 +244,7 @@ void convert(const std::string& file, const std::string& output, int step) {
   for (int k = 0; k < spectral::kDomainSize; k += step) {
     text += "\n" + std::to_string(spectral::kDomainStartNm + k);
     for (const DomainSamples& samples : spectra) {
-      text += spectral::formatted(",%.7g", samples[k]);
+      text += spectral::formatted(",%.7g", sampleAt(samples, k, step, set.isLight));
     }
   }
   spectral::writeWholeFile(output, text + "\n");
@@ -272,7 +288,8 @@ void addSpectrum(CLI::App& application) {
   const auto step = std::make_shared<int>(1);
   converted->add_option("FILE", *file, "JSON of lutgen spectrum pack")->required();
   converted->add_option("-o,--output", *output, "CSV to write")->required();
-  converted->add_option("--step", *step, "nm between rows; left out: 1")->check(CLI::Range(1, 100));
+  converted->add_option("--step", *step, "nm between rows; left out: 1. Lights keep their power")
+      ->check(CLI::Range(1, 100));
   converted->callback([file, output, step] { convert(*file, *output, *step); });
 }
 

@@ -46,6 +46,8 @@ class Spectrum(LutgenTest):
             power = table[:, 1].sum()
             self.assertTrue(np.isfinite(table).all())
             self.assertAlmostEqual(power, 1, delta=0.25, msg=form)
+            coarse = self.table(step=10)[:, 1]
+            self.assertAlmostEqual(10 * (coarse.sum() - (coarse[0] + coarse[-1]) / 2), power, delta=0.03, msg=form)
 
     def test_tolerance_finds_the_fewest_bytes(self):
         mean, _, stored = self.pack("colorchecker", "--tolerance", "0.2")
