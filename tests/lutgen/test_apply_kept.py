@@ -12,6 +12,7 @@ import numpy as np
 import OpenEXR
 from PIL import Image
 
+import exr_bytes
 from lutgen import LUTGEN, LutgenTest, lutgen
 
 CASES = Path(__file__).parent / "pictures"
@@ -335,6 +336,62 @@ class Hostile(LutgenTest):
         self.assertWorks("apply", "--quiet", "r.yaml", "good.exr", "./good.exr")
         self.assertEqual((self.folder / "good.exr").read_bytes(), (self.folder / "out.exr").read_bytes())
         self.assertNotEqual(before[0][1]["R"].tobytes(), parts_of(self.folder / "good.exr")[0][1]["R"].tobytes())
+
+
+class Unusual(LutgenTest):
+    """Pyramids, subsampled channels, deep pictures: right, or refused in a line."""
+
+    LOOK = "metamer: 1\nname: a\nspace: ACEScg\ninput: {illuminant: D65}\noutput: {illuminant: A}\nscene: {kind: smooth}\n"
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "a.yaml").write_text(self.LOOK)
+        self.random = np.random.default_rng(4)
+
+    def relit(self, rgb):
+        """By a plain file of the same numbers."""
+        OpenEXR.File({}, {"RGB": np.ascontiguousarray(rgb, np.float16)}).write(str(self.folder / "plain.exr"))
+        self.assertEqual(lutgen("apply", "a.yaml", "plain.exr", "lit.exr", "--quiet", folder=self.folder).returncode, 0)
+        return OpenEXR.File(str(self.folder / "lit.exr")).channels()["RGB"].pixels
+
+    def test_every_level_of_a_pyramid(self):
+        levels = [self.random.random((side, side, 3)).astype(np.float16) for side in (16, 8, 4, 2, 1)]
+        (self.folder / "mip.exr").write_bytes(exr_bytes.pyramid(levels, 8))
+        run = lutgen("apply", "a.yaml", "mip.exr", "out.exr", "--quiet", folder=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        got = exr_bytes.pyramid_levels((self.folder / "out.exr").read_bytes(), 16, 8)
+        for level, ours in zip(levels, got, strict=True):
+            np.testing.assert_array_equal(ours, self.relit(level))
+
+    def test_deep_pictures(self):
+        samples = np.empty((2, 3), object)
+        for place in np.ndindex(samples.shape):
+            samples[place] = np.full(1 + sum(place), 0.5, np.float32)
+        OpenEXR.File({"compression": OpenEXR.ZIPS_COMPRESSION, "type": OpenEXR.deepscanline},
+                     dict.fromkeys("RGBAZ", samples)).write(str(self.folder / "deep.exr"))
+        for command in (("apply", "a.yaml", "deep.exr", "o.exr"), ("compare", "deep.exr", "deep.exr"),
+                        ("skin", "estimate", "deep.exr", "-o", "o.exr")):
+            self.assertFails(*command, says=["deep.exr", "deep", "flatten"])
+
+    def test_subsampled_channels(self):
+        rgb = self.random.random((6, 8, 3)).astype(np.float16)
+        small = self.random.random((3, 4)).astype(np.float32)
+        planes = {name: (exr_bytes.HALF, 1, rgb[..., k]) for k, name in enumerate("RGB")}
+        data = exr_bytes.scanlines({**planes, "U": (exr_bytes.FLOAT, 2, small)})
+        (self.folder / "u.exr").write_bytes(data)
+        run = lutgen("apply", "a.yaml", "u.exr", "out.exr", "--quiet", folder=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        lit = self.relit(rgb)
+        lit_planes = {name: (exr_bytes.HALF, 1, lit[..., k]) for k, name in enumerate("RGB")}
+        self.assertEqual((self.folder / "out.exr").read_bytes(),
+                         exr_bytes.scanlines({**lit_planes, "U": (exr_bytes.FLOAT, 2, small)}))
+        (self.folder / "ryby.exr").write_bytes(exr_bytes.scanlines(
+            {"Y": planes["G"], "RY": (exr_bytes.HALF, 2, small), "BY": (exr_bytes.HALF, 2, small)}))
+        self.assertFails("apply", "a.yaml", "ryby.exr", "o.exr", says=["ryby.exr: channels '3'", "it has BY, RY, Y"])
+        (self.folder / "rb.exr").write_bytes(exr_bytes.scanlines(
+            {**planes, "R": (exr_bytes.HALF, 2, small), "B": (exr_bytes.HALF, 2, small)}))
+        self.assertFails("apply", "a.yaml", "rb.exr", "o.exr", says=["rb.exr: layer 'R, G, B'", "full resolution"])
+        self.assertFails("skin", "estimate", "u.exr", "-o", "o.exr", says=["u.exr"])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import numpy as np
 import OpenEXR
 import PyOpenColorIO as ocio
 import tifffile
-from PIL import Image
+from PIL import Image, ImageCms
 
 from lutgen import LutgenTest, lutgen
 
@@ -144,6 +144,39 @@ class Spaces(LutgenTest):
         found = tifffile.imread(self.folder / "out.tif") >> 6
         expected = tifffile.imread(self.folder / "expected.tif") / 65535 * 1023
         self.assertLess(np.abs(found - expected).max(), 0.52)  # rounded, not cut
+
+    def test_profiles_inks_and_film(self):
+        """An embedded ICC profile, CMYK, and a DPX of printing densities."""
+        shown = codes(255, np.uint8)
+        image = Image.fromarray(shown)
+        profile = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
+        other = profile.replace("sRGB built-in".encode("utf-16-be"), "Wide gamut RGB"[:13].encode("utf-16-be"))
+        self.assertNotEqual(other, profile)
+        image.save(self.folder / "plain.png")
+        self.assertWorks("apply", "r.yaml", "plain.png", "plain_out.png")
+        wanted = np.asarray(Image.open(self.folder / "plain_out.png"))
+        for extension in ("png", "tif"):
+            with self.subTest(extension):
+                image.save(self.folder / f"s.{extension}", icc_profile=profile)
+                self.assertWorks("apply", "r.yaml", f"s.{extension}", f"out.{extension}")
+                out = Image.open(self.folder / f"out.{extension}")
+                np.testing.assert_array_equal(np.asarray(out), wanted)
+                image.save(self.folder / f"w.{extension}", icc_profile=other)
+                run = lutgen("apply", "r.yaml", f"w.{extension}", f"out.{extension}", folder=self.folder)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertIn("ICC profile 'Wide gamut RG' is not followed", run.stderr)
+        for name in ("c.tif", "c.jpg"):
+            image.convert("CMYK").save(self.folder / name)
+            self.assertFails("apply", "r.yaml", name, "o.png", says=[name, "'CMYK'", "convert the picture to RGB"])
+        for transfer, says in ((3, "'KodakLog'"), (1, "'Printing density'")):
+            head = bytearray(b"\xff" * 2048)
+            head[0:8] = b"SDPX" + struct.pack(">I", 2048)
+            head[8:20] = b"V1.0\0\0\0\0" + struct.pack(">I", 2048 + 4 * 48)
+            head[36:136] = bytes(100)
+            head[768:784] = struct.pack(">HHIII", 0, 1, 8, 6, 0)
+            head[800:820] = bytes([50, transfer, transfer, 10]) + struct.pack(">HHIII", 1, 0, 2048, 0, 0)
+            (self.folder / "log.dpx").write_bytes(bytes(head) + bytes(4 * 48))
+            self.assertFails("apply", "r.yaml", "log.dpx", "o.dpx", says=["log.dpx", says, "film densities", "--picture-space"])
 
     def test_chromaticities_of_an_exr(self):
         pixels = codes(1000, np.float64) / 500.0

@@ -10,6 +10,13 @@ SpaceClues cluesOf(const AnyPicture& picture, const ColourLayer& layer) {
   SpaceClues clues;
   clues.format = picture.format();
   clues.named = spec.get_string_attribute("colorInteropID", spec.get_string_attribute("oiio:ColorSpace"));
+  if (const std::string transfer = spec.get_string_attribute("dpx:Transfer");
+      clues.named.empty() && transfer == "Printing density") {
+    clues.named = transfer;
+  }
+  for (const char* key : {"jpeg:ColorSpace", "tiff:ColorSpace", "psd:ColorMode"}) {
+    clues.isInks = clues.isInks || spec.get_string_attribute(key) == "CMYK" || spec.get_string_attribute(key) == "YCCK";
+  }
   clues.profile = spec.get_string_attribute("ICCProfile:profile_description");
   std::array<float, 8> xy{};
   if (spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), xy.data())) {

@@ -109,6 +109,10 @@ std::optional<PictureSpace> pictureSpaceOf(const SpaceClues& clues, const std::s
   const std::string named = spectral::lowerCase(clues.named);
   const ocio::ConfigSource none;
   const auto known = [&](const std::string& name) { return pictureSpaceNamed(name, file, library, none); };
+  if (clues.isInks) {
+    throw InputError(file, "colour space", "CMYK",
+                     "is of inks, not of light; convert the picture to RGB by its profile first");
+  }
   if (!clues.isFloat && !clues.profile.empty()) {
     const std::string profile = spectral::lowerCase(clues.profile);
     if (profile.find("p3") != std::string::npos && profile.find("display") != std::string::npos) {
@@ -117,8 +121,8 @@ std::optional<PictureSpace> pictureSpaceOf(const SpaceClues& clues, const std::s
     if (profile.find("srgb") == std::string::npos) {
       note = file + ": its ICC profile '" + spectral::shortened(clues.profile, 40) +
              "' is not followed: its pixels are taken for sRGB; --picture-space names what they are";
-      return known("sRGB");
     }
+    return known("sRGB");
   }
   if (const std::string name = spaceNamedInFile(named); !name.empty()) {
     return known(name);
@@ -126,7 +130,7 @@ std::optional<PictureSpace> pictureSpaceOf(const SpaceClues& clues, const std::s
   if (const auto curve = named.rfind("gamma", 0) == 0 ? ocio::displayCurveNamed(named) : std::nullopt) {
     return displaySpace("Gamma " + spectral::numberText(*curve->gamma), *curve, library.colourSpace("Rec.709").linear);
   }
-  if (named == "kodaklog" || named == "adx" || named == "log") {
+  if (named == "kodaklog" || named == "adx" || named == "log" || named == "printing density") {
     throw InputError(
         file, "colour space", clues.named,
         "is a log of film densities; say which camera's log the pixels are: --picture-space \"ARRI LogC3\"");

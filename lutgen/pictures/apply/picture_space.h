@@ -28,6 +28,7 @@ struct SpaceClues {
   std::string profile;                                 ///< description of an ICC profile; empty: none
   std::optional<std::array<float, 8>> chromaticities;  ///< xy of red, green, blue, white
   bool isFloat = true;
+  bool isInks = false;  ///< CMYK, of which red, green and blue were made without a profile
 };
 
 /// A space by its name: metamer's own (lutgen list spaces), sRGB, "Rec.1886", "Gamma 2.2", ..., a colour space of the

@@ -59,6 +59,9 @@ std::string pictureReason(const std::string& said) {
     return "is no picture of a format that is read; write .exr, .png, .tif, .dpx or .jpg";
   }
   constexpr std::size_t kMost = 120;
+  if (reason.find("not supported") != std::string::npos || reason.find("nsupported") != std::string::npos) {
+    return shortened(withoutStop(reason), kMost) + "; write it in another way";
+  }
   reason = shortened(withoutStop(reason), kMost);
   return (reason.empty() ? "" : reason + "; ") + std::string("it is damaged, cut short or none: write it again");
 }

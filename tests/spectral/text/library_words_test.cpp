@@ -10,6 +10,8 @@ TEST(LibraryWordsTest, PicturesAreSaidOnceAndWithARemedy) {
   const std::string remedy = "; it is damaged, cut short or none: write it again";
   EXPECT_EQ(pictureReason("Could not read header"), "Could not read header" + remedy);
   EXPECT_EQ(pictureReason("Could not open file: Bad header.\nCould not open file: Bad header."), "Bad header" + remedy);
+  EXPECT_EQ(pictureReason("Subsampled channels are not supported."),
+            "Subsampled channels are not supported; write it in another way");
   EXPECT_EQ(pictureReason(""), remedy.substr(2));
   EXPECT_EQ(pictureReason("OpenImageIO could not find a format reader for \"a.xyz\"."),
             "is no picture of a format that is read; write .exr, .png, .tif, .dpx or .jpg");
