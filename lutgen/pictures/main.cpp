@@ -7,6 +7,7 @@ int main(int argumentCount, char** arguments) {
   return metamer::lutgen::run(argumentCount, arguments, [](CLI::App& application) {
     metamer::lutgen::addApply(application);
     metamer::lutgen::addCompare(application);
+    metamer::lutgen::addReport(application);
     metamer::lutgen::addSkin(application);
     metamer::lutgen::addStage(application);
     metamer::lutgen::addUplift(application);

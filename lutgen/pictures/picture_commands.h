@@ -9,6 +9,7 @@ namespace metamer::lutgen {
 /// Each adds one subcommand, which does its work when the command line has been parsed.
 void addApply(CLI::App& application);
 void addCompare(CLI::App& application);
+void addReport(CLI::App& application);
 void addSkin(CLI::App& application);
 void addStage(CLI::App& application);
 void addUplift(CLI::App& application);

@@ -25,7 +25,7 @@ SKIPPED = {
 }
 # Run with METAMER_LONG=1 alone, as they take longer than a few seconds: pages, and beginnings of lines.
 LONG_PAGES = {"compare.md", "configs.md"}
-LONG_LINES = ("lutgen validate", "lutgen stage patterns", "lutgen bake day_to_sodium.yaml --", "lutgen bake --illuminant-in \"3200",
+LONG_LINES = ("lutgen validate", "lutgen report", "lutgen stage patterns", "lutgen bake day_to_sodium.yaml --", "lutgen bake --illuminant-in \"3200",
               "lutgen config day_to_sodium", "lutgen compare day_to_sodium")
 # A figure that a page shows may be this far from today's, of its size: what a reader sees is the same.
 QUOTED = 0.02

@@ -57,6 +57,8 @@ class Signals(LutgenTest):
                       "--json", "m.json", "--report", "m.md"],
             "select": ["stage", "select", "--targets", "A", "D65", "--emitters", *RGBW, "--json", "select.json"],
         }
+        if LONG:
+            self.commands["report"] = ["report", "r.yaml", "-o", "r.html"]
 
     def tree(self):
         """Every file's bytes, but for the time at which a picture says that it was made."""

@@ -13,6 +13,7 @@
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/sip/spectral_transform.h"
 #include "metamer/spectral/colorimetry.h"
+#include "metamer/validation/foliage.h"
 
 namespace metamer::validation {
 namespace {
@@ -33,16 +34,10 @@ Chart chartOf(const std::vector<spectral::Spectrum>& samples) {
   return chart;
 }
 
-/// Leaves, by chlorophyll: green, and many times brighter behind the red edge than before it.
-bool isFoliage(const spectral::Spectrum& sample) {
-  const double green = sample.at(550);
-  return sample.at(740) > 3 * sample.at(675) && green > 1.2 * sample.at(480) && green > 1.2 * sample.at(670);
-}
-
 Chart skinAndFoliage(const spectral::DataLibrary& library) {
   Chart chart = chartOf(library.reflectances("skin").samples);
-  for (const spectral::Spectrum& sample : library.reflectances("tm30").samples) {
-    if (isFoliage(sample) && chart.names.size() < kMostLeaves) {
+  for (const spectral::Spectrum& sample : foliageAmong(library.reflectances("tm30").samples)) {
+    if (chart.names.size() < kMostLeaves) {
       chart.names.push_back(sample.name() + " (leaf)");
       chart.reflectances.push_back(sample.onDomain());
     }

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""lutgen report's page in headless Chromium, with METAMER_LONG=1 where one is installed: no overflow at two
+widths, no error, light and dark, and the slider moves."""
+
+import html
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+from PIL import Image
+
+from lutgen import LutgenTest
+from test_report import QUICK
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+# A frame as wide as the window that is tested: a browser's own window has a least width.
+PROBE = """<!doctype html><body style="margin:0"><iframe id="page" style="width:{width}px;height:900px;border:0"></iframe><pre id="found"></pre>
+<script>
+const page = document.getElementById('page'), found = document.getElementById('found');
+const say = text => found.append(text + '\\n');
+page.onload = () => {{
+  const inside = page.contentDocument, slider = inside.querySelector('.slide input'), pair = inside.querySelector('.pair');
+  page.contentWindow.onerror = text => say('error ' + text);
+  inside.addEventListener('securitypolicyviolation', event => say('error ' + event.violatedDirective));
+  say('width ' + inside.documentElement.scrollWidth);
+  const state = () => say('slider ' + slider.value + ' ' + pair.style.getPropertyValue('--at') + ' ' +
+      page.contentWindow.getComputedStyle(pair.querySelector('.after')).clipPath + ' ' + slider.getAttribute('aria-valuetext'));
+  state();
+  slider.focus(); slider.stepUp(20); slider.dispatchEvent(new Event('input')); state();
+  say('pictures ' + [...inside.images].every(one => one.complete && one.naturalWidth > 0));
+  say('done');
+}};
+page.srcdoc = {page};
+</script></body>"""
+
+
+class Browser(LutgenTest):
+    def chromium(self, *arguments):
+        return subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+                               f"--user-data-dir={self.folder / 'profile'}", *arguments],
+                              capture_output=True, text=True, timeout=120)
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "night.yaml").write_text(QUICK)
+        self.assertWorks("report", "night.yaml", "-o", "report.html")
+        self.page = (self.folder / "report.html").read_text(encoding="utf-8")
+
+    def found(self, width):
+        text = json.dumps(self.page).replace("</", "<\\/")
+        (self.folder / "probe.html").write_text(PROBE.format(width=width, page=text))
+        run = self.chromium("--virtual-time-budget=5000", "--dump-dom", f"file://{self.folder / 'probe.html'}")
+        said = re.search(r'<pre id="found">(.*?)</pre>', run.stdout, re.DOTALL)
+        self.assertIsNotNone(said, run.stderr[-500:])
+        return html.unescape(said[1]).strip().split("\n")
+
+    def test_it_fits_and_the_slider_moves(self):
+        for width in (390, 1280):
+            found = self.found(width)
+            self.assertEqual(found[-1], "done", found)
+            self.assertEqual(found[0], f"width {width}")
+            self.assertEqual(found[1], "slider 50 50% inset(0px 0px 0px 50%) 50 % before, 50 % after")
+            self.assertEqual(found[2], "slider 70 70% inset(0px 0px 0px 70%) 70 % before, 30 % after")
+            self.assertEqual(found[3:], ["pictures true", "done"])
+
+    def test_it_is_dark_where_the_reader_is(self):
+        def lightness(*arguments):
+            self.chromium("--window-size=800,600", f"--screenshot={self.folder / 'shot.png'}", *arguments,
+                          f"file://{self.folder / 'report.html'}")
+            return float(np.median(np.asarray(Image.open(self.folder / "shot.png").convert("L"))))
+
+        self.assertGreater(lightness(), 200)
+        self.assertLess(lightness("--force-dark-mode"), 60)
+
+
+if __name__ == "__main__":
+    if CHROMIUM is None or os.environ.get("METAMER_LONG") != "1":
+        print("no Chromium is installed, or METAMER_LONG=1 is not set")
+        sys.exit(77)
+    unittest.main()
