@@ -57,13 +57,13 @@ VectorXd interiorPoint(const MatrixXd& quadratic, const VectorXd& linear, const 
     const VectorXd force =
         linear - quadratic * x + rows.transpose() * prices + (barrier / toLow - barrier / toHigh).matrix();
     const Eigen::LLT<MatrixXd> factored(system);
-    const MatrixXd spread = factored.solve(rows.transpose());
-    const VectorXd free = factored.solve(force);
+    VectorXd move = factored.solve(force);
     VectorXd priceStep = VectorXd::Zero(rows.rows());
     if (rows.rows() > 0) {
-      priceStep = (rows * spread).eval().completeOrthogonalDecomposition().solve(missed - rows * free);
+      const MatrixXd spread = factored.solve(rows.transpose());
+      priceStep = (rows * spread).eval().completeOrthogonalDecomposition().solve(missed - rows * move);
+      move += spread * priceStep;
     }
-    const VectorXd move = free + spread * priceStep;
     const ArrayXd belowStep = barrier / toLow - below - below / toLow * move.array();
     const ArrayXd aboveStep = barrier / toHigh - above + above / toHigh * move.array();
     double length = 1.0;
