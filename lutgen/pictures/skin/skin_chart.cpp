@@ -10,6 +10,7 @@
 #include "metamer/ocio/display_curve.h"
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/formatted.h"
+#include "metamer/spectral/spectral_picture.h"
 #include "picture.h"
 
 namespace metamer::lutgen {
@@ -19,12 +20,6 @@ using spectral::formatted;
 
 std::string nameOf(std::size_t index) {
   return "skin " + std::to_string(index);
-}
-
-std::string bandName(double nm) {
-  std::string name = formatted("T.%.6fnm", nm);
-  name[name.find('.', 2)] = ',';
-  return name;
 }
 
 }  // namespace
@@ -95,7 +90,7 @@ void writeSkinChart(const SkinChart& chart, const spectral::RgbSpace& space, int
   std::vector<std::string> names = {"R", "G", "B"};
   if (isSpectral) {
     for (const double nm : skin::skinWavelengths()) {
-      names.push_back(bandName(nm));
+      names.push_back(spectral::channelOfWavelength(nm, spectral::SpectralQuantity::Reflectance));
     }
   }
   OIIO::ImageSpec spec(chart.columns * patchPixels, chart.rows() * patchPixels, static_cast<int>(names.size()),

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "metamer/spectral/formatted.h"
-
 namespace metamer::lutgen {
 namespace {
 
@@ -19,12 +17,6 @@ bool isPremultiplied(float alpha) {
 }
 
 }  // namespace
-
-std::string reflectanceChannel(double nm) {
-  std::string name = spectral::formatted("T.%.6fnm", nm);
-  name[name.find('.', 2)] = ',';
-  return name;
-}
 
 SpectralRows::SpectralRows(const spectral::Uplift& uplift, PixelFunction toRec709, const std::vector<int>& wavelengths)
     : m_uplift(uplift), m_toRec709(std::move(toRec709)) {

@@ -5,17 +5,12 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "exr/exr_change.h"
 #include "metamer/spectral/uplift.h"
 
 namespace metamer::lutgen {
-
-/// "T.550,000000nm": a reflectance in the layout of Fichet and others 2021, "An OpenEXR layout for spectral images",
-/// JCGT 10(3), section 3.
-std::string reflectanceChannel(double nm);
 
 /// Colours of a picture, a row at a time, as their spectra. Safe on several threads.
 class SpectralRows {

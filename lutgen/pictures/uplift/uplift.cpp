@@ -14,6 +14,7 @@
 #include "metamer/sip/scene_uplift.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/text.h"
 #include "picture_commands.h"
 #include "uplift/spectral_rows.h"
@@ -237,7 +238,7 @@ void uplift(const UpliftOptions& options) {
     names.insert(names.begin(), "A");
   }
   for (const int nm : wavelengths) {
-    names.push_back(reflectanceChannel(nm));
+    names.push_back(spectral::channelOfWavelength(nm, spectral::SpectralQuantity::Reflectance));
   }
   for (const std::string& name : names) {
     strips.channels.push_back({name, type});

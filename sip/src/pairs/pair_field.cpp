@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "pairs/pair_conflicts.h"
+#include "response/chromaticity.h"
 
 namespace metamer::sip {
 
@@ -21,8 +22,6 @@ constexpr double kHalf = 0.5;
 constexpr Index kNeighbours = 32;
 /// This near to a pair, squared, a colour has its chromaticity.
 constexpr double kSamePlace = 1e-20;
-/// A colour whose mean is this small a part of its largest channel lies beyond all lights (MeasuredScene).
-constexpr double kLeastMean = 1e-4;
 /// Of the radius.
 constexpr double kLeastReach = 1e-3;
 /// How far the cover of some pairs reaches beside the pairs.
@@ -44,7 +43,7 @@ PairField::PairField(const Eigen::Matrix<double, 2, 3>& differences, const Eigen
                      const Eigen::MatrixXd& deviations, double radius)
     : m_differences(differences), m_at(static_cast<std::size_t>(responses.cols()), -1) {
   for (Index i = 0; i < responses.cols(); ++i) {
-    if (responses.col(i).mean() >= kDarkest) {
+    if (responses.col(i).mean() >= kDarkestMean) {
       m_at[static_cast<std::size_t>(i)] = static_cast<Index>(m_pair.size());
       m_pair.push_back(i);
     }
@@ -72,10 +71,6 @@ PairField::PairField(const Eigen::Matrix<double, 2, 3>& differences, const Eigen
   m_reaches = (m_reaches.array().square() + m_softness.array().square()).sqrt();
 }
 
-bool PairField::hasPlace(const Eigen::Vector3d& response) {
-  return response.mean() > kLeastMean * response.cwiseAbs().maxCoeff();
-}
-
 std::vector<Index> PairField::conflictsOf(Index pair) const {
   std::vector<Index> pairs;
   if (!isDark(pair)) {
@@ -95,8 +90,7 @@ Cover PairField::coverOf(const std::vector<Index>& pairs) const {
 }
 
 Eigen::Matrix<double, 2, 3> PairField::placeSlope(const Eigen::Vector3d& response) const {
-  const double mean = response.mean();
-  return m_differences / mean - placeOf(response) * Eigen::RowVector3d::Constant(1.0 / (3.0 * mean));
+  return sip::placeSlope(m_differences, placeOf(response), response.mean());
 }
 
 Eigen::MatrixXd PairField::valueAt(const Vector2d& place, bool withSlopes) const {
@@ -146,14 +140,14 @@ Eigen::MatrixXd PairField::valueAt(const Vector2d& place, bool withSlopes) const
 
 void PairField::addTo(Eigen::MatrixXd& deviations, const Eigen::Matrix3Xd& responses) const {
   for (Index k = 0; k < responses.cols(); ++k) {
-    if (hasPlace(responses.col(k))) {
+    if (hasChromaticity(responses.col(k))) {
       deviations.col(k) += responses.col(k).mean() * valueAt(placeOf(responses.col(k)), false);
     }
   }
 }
 
 void PairField::addTo(BandTriple& slope, const Eigen::Vector3d& response) const {
-  if (hasPlace(response)) {
+  if (hasChromaticity(response)) {
     const Eigen::MatrixXd value = valueAt(placeOf(response), true);
     slope += value.col(0) * Eigen::RowVector3d::Constant(1.0 / 3.0) +
              response.mean() * value.rightCols<2>() * placeSlope(response);

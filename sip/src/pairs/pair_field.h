@@ -20,9 +20,6 @@ namespace metamer::sip {
 /// with a continuous slope. Immutable after construction, safe to share between threads.
 class PairField {
  public:
-  /// Mean responses below this part of white's have no chromaticity to speak of.
-  static constexpr double kDarkest = 1e-4;
-
   /// @param differences  n q from a response
   /// @param responses    3 x n, white-normalised
   /// @param deviations   B x n: pairs' spectra less what the scene gives their responses
@@ -47,11 +44,9 @@ class PairField {
 
   /// A cover of some pairs alone, each reaching as far as it does here.
   Cover coverOf(const std::vector<Eigen::Index>& pairs) const;
-  /// The place of a response, and how it changes; of a mean above zero.
+  /// The place of a response that hasChromaticity(), and how it changes.
   Eigen::Vector2d placeOf(const Eigen::Vector3d& response) const { return m_differences * response / response.mean(); }
   Eigen::Matrix<double, 2, 3> placeSlope(const Eigen::Vector3d& response) const;
-  /// Whether a response has a place.
-  static bool hasPlace(const Eigen::Vector3d& response);
 
  private:
   /// At a place: the deviation for a mean of one, and where asked for its derivatives by the place in two columns more.

@@ -10,14 +10,13 @@
 
 #include "metamer/spectral/input_error.h"
 #include "pairs/pair_conflicts.h"
+#include "response/chromaticity.h"
 #include "scenes/delaunay.h"
 
 namespace metamer::sip {
 
 namespace {
 
-/// Samples darker than this fraction of white carry no usable chromaticity.
-constexpr double kDarkest = 1e-4;
 constexpr double kRounding = 1e-12;
 /// Least variance of the samples' chromaticities in any direction.
 constexpr double kLeastVariance = 1e-6;
@@ -60,7 +59,7 @@ DatasetScene::DatasetScene(const SoftBoundSolver& solver, const Eigen::MatrixXd&
   for (Eigen::Index i = 0; i < reflectances.cols(); ++i) {
     const Eigen::Vector3d response = weights * reflectances.col(i);
     const double sum = response.sum();
-    if (sum < 3.0 * kDarkest) {
+    if (sum < 3.0 * kDarkestMean) {
       continue;
     }
     const Eigen::Vector2d chromaticity = response.head<2>() / sum;

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes/measured_scene.h"
 
+#include "response/chromaticity.h"
+
 namespace metamer::sip {
 
 namespace {
 
 using Eigen::Index;
-
-/// A colour whose mean is this small a part of its largest channel lies so far from all samples that the kernel is
-/// zero.
-constexpr double kLeastMean = 1e-4;
-
-bool isNearSamples(const Eigen::Vector3d& response) {
-  return response.mean() > kLeastMean * response.cwiseAbs().maxCoeff();
-}
 
 /// Places with room for the three spectra of a Gaussian, whose kernel is no sample's.
 Eigen::ArrayX2d withThreeMore(const Eigen::ArrayX2d& places) {
@@ -86,7 +80,7 @@ BandVector MeasuredScene::atBands(const Eigen::Ref<const Eigen::VectorXd>& sums)
 Eigen::MatrixXd MeasuredScene::deviations(const Eigen::Matrix3Xd& responses) const {
   std::vector<Index> near;
   for (Index k = 0; k < responses.cols(); ++k) {
-    if (isNearSamples(responses.col(k))) {
+    if (hasChromaticity(responses.col(k))) {
       near.push_back(k);
     }
   }
@@ -105,13 +99,11 @@ Eigen::MatrixXd MeasuredScene::deviations(const Eigen::Matrix3Xd& responses) con
 }
 
 std::optional<MeasuredScene::Mixture> MeasuredScene::mixture(const Eigen::Vector3d& response) const {
-  if (!isNearSamples(response)) {
+  if (!hasChromaticity(response)) {
     return std::nullopt;
   }
   const Chromaticity colour = chromaticityOf(response);
-  return Mixture{colour.mean,
-                 m_differences / colour.mean - colour.place * Eigen::RowVector3d::Constant(1.0 / (3.0 * colour.mean)),
-                 weighed(colour.place)};
+  return Mixture{colour.mean, sip::placeSlope(m_differences, colour.place, colour.mean), weighed(colour.place)};
 }
 
 MeasuredScene::Local MeasuredScene::local(const Mixture& mixture) const {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "response/chromaticity.h"
 #include "scenes/leading_places.h"
 #include "scenes/node_bands.h"
 
@@ -17,8 +18,6 @@ namespace {
 
 using Eigen::Index;
 
-/// Of white's mean response: what is darker has no chromaticity to speak of.
-constexpr double kDarkest = 1e-4;
 /// Least variance of the samples' chromaticities in any direction, so that a lamp that hardly tells two channels apart
 /// does not stretch its noise into a scale.
 constexpr double kLeastVariance = 1e-4;
@@ -79,7 +78,7 @@ MeasuredSeeds::MeasuredSeeds(const Eigen::Matrix3Xd& weights, const Eigen::Matri
   Index exact = 1;
   for (const bool isExact : {true, false}) {
     for (Index i = 0; i < all.cols(); ++i) {
-      if ((noise[i] == 0.0) == isExact && all.col(i).mean() >= kDarkest) {
+      if ((noise[i] == 0.0) == isExact && all.col(i).mean() >= kDarkestMean) {
         used.push_back(i);
       }
     }

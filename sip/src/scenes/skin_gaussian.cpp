@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "response/chromaticity.h"
+
 namespace metamer::sip {
 
 namespace {
@@ -13,8 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector2d;
 
-/// Of white's mean response: what is darker has no chromaticity to speak of.
-constexpr double kDarkest = 1e-4;
 /// Variances added to responses and places, so that a light that shows fewer than three colours leaves a spectrum: far
 /// below what skins vary by under any lamp that shows three.
 constexpr double kLeastResponse = 1e-8;
@@ -26,7 +26,7 @@ Eigen::MatrixXd ofMeanOne(const Eigen::Matrix3Xd& weights, const Eigen::MatrixXd
   const Eigen::RowVectorXd means = (weights * reflectances).colwise().mean();
   std::vector<Index> shown;
   for (Index k = 0; k < means.size(); ++k) {
-    if (means[k] >= kDarkest) {
+    if (means[k] >= kDarkestMean) {
       shown.push_back(k);
     }
   }

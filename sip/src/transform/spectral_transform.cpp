@@ -11,6 +11,7 @@
 #include "metamer/sip/band_weights.h"
 #include "metamer/sip/scene_cache.h"
 #include "metamer/spectral/argument_checks.h"
+#include "response/chromaticity.h"
 #include "response/ray_polygon.h"
 #include "response/samples_on_bands.h"
 #include "transform/limiter.h"
@@ -90,8 +91,8 @@ struct SpectralTransform::State {
     return share == 0.0 ? within : Eigen::Vector3d(within + share * (relative + difference - within));
   }
   Cover::Share unlimitedAt(const Eigen::Vector3d& response) const {
-    return unlimited.isEmpty() || !PairField::hasPlace(response) ? Cover::Share{}
-                                                                 : unlimited.at(recovery->pairs()->placeOf(response));
+    return unlimited.isEmpty() || !hasChromaticity(response) ? Cover::Share{}
+                                                             : unlimited.at(recovery->pairs()->placeOf(response));
   }
 };
 

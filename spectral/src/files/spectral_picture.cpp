@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "files/sampled_rows.h"
+#include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
 
@@ -85,6 +86,12 @@ std::optional<double> channelWavelengthNm(const std::string& channel, SpectralQu
     }
   }
   return std::nullopt;
+}
+
+std::string channelOfWavelength(double nm, SpectralQuantity quantity) {
+  std::string number = formatted("%.6f", nm);
+  std::replace(number.begin(), number.end(), '.', ',');
+  return std::string(prefixOf(quantity)) + "." + number + "nm";
 }
 
 std::vector<Spectrum> readSpectralPicture(const std::string& file, const std::string& place,

@@ -12,6 +12,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/spectral_picture.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -23,15 +24,6 @@ constexpr const char* kSumAttribute = "metamer:checksum";
 constexpr const char* kNotePrefix = "metamer:";
 constexpr int kWordsASum = 4;
 
-/// "S0.550,000000nm": a decimal comma, six digits.
-std::string binName(double nm) {
-  char text[64];
-  std::snprintf(text, sizeof text, "S0.%.6fnm", nm);
-  std::string name = text;
-  name[name.find('.', 3)] = ',';
-  return name;
-}
-
 OIIO::ImageSpec pictureSpec(const Film& film, const FilmNotes& notes, bool withReplicates) {
   const FilmFormat& format = film.format();
   std::vector<std::string> names = {"R", "G", "B", "Y", "variance.Y", "samples"};
@@ -39,7 +31,8 @@ OIIO::ImageSpec pictureSpec(const Film& film, const FilmNotes& notes, bool withR
     names.push_back("replicate." + std::to_string(g) + ".Y");
   }
   for (int b = 0; b < format.bins.count; ++b) {
-    names.push_back(binName(format.bins.centreNm(b)));
+    names.push_back(
+        spectral::channelOfWavelength(format.bins.centreNm(b), spectral::SpectralQuantity::SpectralPowerDistribution));
   }
   OIIO::ImageSpec spec(format.width, format.height, static_cast<int>(names.size()), OIIO::TypeDesc::FLOAT);
   spec.channelnames = names;

@@ -11,6 +11,17 @@ namespace {
 
 using Quantity = SpectralQuantity;
 
+TEST(SpectralPictureTest, ChannelsAreNamedAsTheyAreRead) {
+  EXPECT_EQ(channelOfWavelength(550.0, SpectralQuantity::Reflectance), "T.550,000000nm");
+  EXPECT_EQ(channelOfWavelength(380.25, SpectralQuantity::SpectralPowerDistribution), "S0.380,250000nm");
+  for (const double nm : {300.0, 412.5, 1000.0}) {
+    const auto read =
+        channelWavelengthNm(channelOfWavelength(nm, SpectralQuantity::Transmittance), SpectralQuantity::Transmittance);
+    ASSERT_TRUE(read.has_value());
+    EXPECT_NEAR(*read, nm, 1e-9);
+  }
+}
+
 TEST(SpectralPictureTest, ChannelsOfTheLayout) {
   constexpr auto kLight = Quantity::SpectralPowerDistribution;
   EXPECT_DOUBLE_EQ(channelWavelengthNm("S0.550,000000nm", kLight).value(), 550.0);

@@ -36,6 +36,10 @@ void setPictureChannelReader(PictureChannelReader reader);
 /// prefixes. Empty: another channel. S1 to S3, polarisation, are others.
 std::optional<double> channelWavelengthNm(const std::string& channel, SpectralQuantity quantity);
 
+/// The channel of a wavelength in that layout, its section 3: a decimal comma, six digits. Of power distributions "S0",
+/// else "T".
+std::string channelOfWavelength(double nm, SpectralQuantity quantity);
+
 /// The spectrum of a picture's pixel ("x,y"), or the mean of all ("").
 /// @throws InputError: no reader, a place that is none, no channels of the quantity, what readers refuse
 std::vector<Spectrum> readSpectralPicture(const std::string& file, const std::string& place, SpectralQuantity quantity);
