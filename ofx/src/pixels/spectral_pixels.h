@@ -16,8 +16,8 @@
 
 namespace metamer::ofx {
 
-/// Bands of a draft's transform, and the tolerance of its map: a frame while a slider is drawn, on photographs within
-/// half a CIEDE2000 (99th percentile).
+/// Bands of a draft's transform, and the tolerance of its map: a frame while a slider is drawn, on a photograph within
+/// a hundredth of a pixel's largest channel (99th percentile).
 inline constexpr int kDraftBandCount = 81;
 inline constexpr double kDraftTolerance = 0.5;
 
