@@ -30,10 +30,10 @@ def git(*words: str) -> list[str]:
 
 
 def compiled(build: Path) -> list[Path]:
-    """Every source that the build compiles but those that it made itself."""
+    """Every source of this tree that the build compiles: none that it made, none of a package that it uses."""
     entries = json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))
     names = {Path(os.path.normpath(os.path.join(entry["directory"], entry["file"]))) for entry in entries}
-    return sorted(name for name in names if build.resolve() not in name.parents)
+    return sorted(name for name in names if ROOT in name.parents and ROOT / "build" not in name.parents)
 
 
 def changed(commits: int) -> list[Path]:

@@ -16,9 +16,6 @@ namespace {
 
 using spectral::InputError;
 
-/// Bands of the engine behind a baked transform: p99 within 0.13 CIEDE2000 of 401 bands on spiky lamps, 0.05 on others.
-constexpr int kBakeBandCount = 161;
-
 /// The curve of a cube's signal: the space's own, else the shaper.
 Shaper cubeShaper(const WorkingSpace& space, const BakeOptions& options) {
   if (space.encoding) {
@@ -50,13 +47,6 @@ void requireSignal(const LutFormat& format, const BakeOptions& options) {
   }
 }
 
-Prepared prepare(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options) {
-  WorkingSpace space = findWorkingSpace(recipe.space, library, options.config);
-  sip::TransformSpec spec = sip::resolve(recipe, library, space.engine);
-  sip::SpectralTransform transform(spec, kBakeBandCount);
-  return {std::move(space), std::move(spec), std::move(transform)};
-}
-
 int tableSize(const BakeOptions& options, Representation representation, const LutFormat& format) {
   if (options.size != 0) {
     spectral::requireWithin("size", options.size, kSmallestTable, kLargestTable);
@@ -79,12 +69,10 @@ bool holdsChain(const LutFormat& format) {
   return format.content == LutFormat::Content::Operators && format.extension != ".clf";
 }
 
-/// The gamut and exposures that a format is judged over.
-sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& prepared, const BakeOptions& options) {
+sip::ErrorProtocol::Options probesOf(const LutFormat& format, const WorkingSpace& space, const BakeOptions& options) {
   const bool isTable = options.representation.value_or(Representation::Identity) == Representation::LogCube;
   sip::ErrorProtocol::Options probes;
   if (isTable || !holdsChain(format)) {
-    const WorkingSpace& space = prepared.space;
     if (!space.isLog && !space.isLinear) {
       throw InputError("", "space", space.name,
                        "is neither linear nor log, which a table needs; name a log space, or write .ctf");

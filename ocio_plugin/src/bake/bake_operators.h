@@ -17,8 +17,6 @@ struct Prepared {
   sip::SpectralTransform transform;
 };
 
-Prepared prepare(const sip::Recipe& recipe, const spectral::DataLibrary& library, const BakeOptions& options);
-
 /// @throws spectral::InputError: a display's curve for a format whose pixels are linear, which it would end at white
 void requireSignal(const LutFormat& format, const BakeOptions& options);
 
@@ -30,7 +28,7 @@ bool holdsChain(const LutFormat& format);
 
 /// The gamut and exposures that a format is judged over.
 /// @throws spectral::InputError: stops that do not rise, a space that a table cannot be made for
-sip::ErrorProtocol::Options probesOf(const LutFormat& format, const Prepared& prepared, const BakeOptions& options);
+sip::ErrorProtocol::Options probesOf(const LutFormat& format, const WorkingSpace& space, const BakeOptions& options);
 
 /// A recipe as operators on what a file of a format holds, and the way there from the engine's pixels.
 struct Operators {

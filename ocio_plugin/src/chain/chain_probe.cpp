@@ -71,7 +71,7 @@ Eigen::Matrix3d ChainProbe::metric(const Eigen::Vector2d& point, const Eigen::Ve
   const Eigen::Vector3d lab = labOf(exposure, logRatio);
   return perceptualForm(
       [&](const Eigen::Vector3d& deviation) {
-        return spectral::deltaE2000(lab, labOf(exposure, logRatio + deviation));
+        return spectral::difference2000(lab, labOf(exposure, logRatio + deviation));
       },
       kStep);
 }

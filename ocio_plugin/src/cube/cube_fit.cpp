@@ -12,7 +12,7 @@ namespace metamer::ocio {
 namespace {
 
 /// Rounds of weighted least squares.
-constexpr int kRounds = 6;
+constexpr int kRounds = 5;
 /// A round multiplies a sample's weight, of which it keeps a power, by its squared error up to the 99th percentile: the
 /// rounds raise the errors to ever higher powers, toward the least percentile. From this part of it on, below which
 /// what is small already must not be forgotten. Beyond it the weight falls off again: what is out of reach anyhow is
@@ -73,7 +73,7 @@ class Fit {
   void run() {
     const Nodes start = m_nodes;
     CubeEquations equations(m_size, m_touched);
-    Symmetric smoothness{};
+    Symmetric smoothness = Symmetric::Zero();
     for (int round = 0; round < kRounds; ++round) {
       if (round > 0) {
         weigh();
@@ -83,7 +83,7 @@ class Fit {
       if (round == 0) {
         smoothness = isotropic(equations.meanBlock());
       }
-      equations.addSmoothness(scaled(smoothness, kStiffness), scaled(smoothness, kAttachment), start);
+      equations.addSmoothness(kStiffness * smoothness, kAttachment * smoothness, start);
       equations.solve(m_nodes, m_held, kResidualFall, kMostSteps);
     }
     follow(start);
@@ -95,25 +95,14 @@ class Fit {
   }
 
  private:
-  static Symmetric scaled(const Symmetric& metric, float factor) {
-    Symmetric result = metric;
-    for (float& value : result) {
-      value *= factor;
-    }
-    return result;
-  }
-
   /// A metric of its mean size, alike in all directions: deviations of nodes are no errors yet.
   static Symmetric isotropic(const Symmetric& metric) {
-    const float mean = (metric[0] + metric[2] + metric[5]) / 3.0F;
-    return {mean, 0.0F, mean, 0.0F, 0.0F, mean};
+    return Symmetric::Identity() * (metric.diagonal().sum() / 3.0F);
   }
 
   /// CIEDE2000 of a small deviation.
   static float smallError(const Symmetric& m, const Eigen::Vector3f& d) {
-    const float square = m[0] * d[0] * d[0] + m[2] * d[1] * d[1] + m[5] * d[2] * d[2] +
-                         2.0F * (m[1] * d[0] * d[1] + m[3] * d[0] * d[2] + m[4] * d[1] * d[2]);
-    return std::sqrt(std::max(0.0F, square));
+    return std::sqrt(std::max(0.0F, d.dot((m * d).head<3>())));
   }
 
   /// The lattice's value at a sample.

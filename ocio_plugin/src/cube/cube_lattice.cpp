@@ -9,24 +9,24 @@
 namespace metamer::ocio {
 namespace {
 
-Eigen::Vector3f times(const Symmetric& m, const Eigen::Vector3f& v) {
-  return {m[0] * v[0] + m[1] * v[1] + m[3] * v[2], m[1] * v[0] + m[2] * v[1] + m[4] * v[2],
-          m[3] * v[0] + m[4] * v[1] + m[5] * v[2]};
+Padded padded(const Eigen::Vector3f& v) {
+  return {v[0], v[1], v[2], 0.0F};
+}
+
+Padded times(const Symmetric& m, const Padded& v) {
+  return m.col(0) * v[0] + m.col(1) * v[1] + m.col(2) * v[2];
+}
+
+double product(const Padded& a, const Padded& b) {
+  return static_cast<double>(a.head<3>().dot(b.head<3>()));
 }
 
 /// The inverse, or zero where there is none.
 Symmetric inverted(const Symmetric& m) {
-  Eigen::Matrix3d block;
-  block << m[0], m[1], m[3], m[1], m[2], m[4], m[3], m[4], m[5];
-  const Eigen::Matrix3f found = block.inverse().cast<float>();
-  return found.allFinite() ? Symmetric{found(0, 0), found(1, 0), found(1, 1), found(2, 0), found(2, 1), found(2, 2)}
-                           : Symmetric{};
-}
-
-void accumulate(Symmetric& sum, const Symmetric& m, float factor) {
-  for (std::size_t k = 0; k < 6; ++k) {
-    sum[k] += factor * m[k];
-  }
+  const Eigen::Matrix3d block = m.topRows<3>().cast<double>();
+  Symmetric inverse = Symmetric::Zero();
+  inverse.topRows<3>() = block.inverse().cast<float>();
+  return inverse.allFinite() ? inverse : Symmetric::Zero();
 }
 
 /// Rows a task.
@@ -118,13 +118,15 @@ CubeEquations::CubeEquations(int size, const std::vector<std::uint8_t>& touched)
 }
 
 void CubeEquations::clear() {
-  std::fill(m_blocks.begin(), m_blocks.end(), std::array<Symmetric, 8>{});
-  std::fill(m_right.begin(), m_right.end(), Eigen::Vector3f::Zero());
+  for (auto& row : m_blocks) {
+    row.fill(Symmetric::Zero());
+  }
+  std::fill(m_right.begin(), m_right.end(), Padded::Zero());
 }
 
 void CubeEquations::add(const CubeStencil& stencil, const Symmetric& metric, const Eigen::Vector3f& target,
                         float weight) {
-  const Eigen::Vector3f pull = weight * times(metric, target);
+  const Padded pull = weight * times(metric, padded(target));
   for (std::size_t m = 0; m < 4; ++m) {
     if (!(stencil.weight[m] > 0.0F)) {
       continue;
@@ -133,7 +135,7 @@ void CubeEquations::add(const CubeStencil& stencil, const Symmetric& metric, con
     const std::uint32_t row = m_rowOf[stencil.node + m_steps[corner]];
     m_right[row] += stencil.weight[m] * pull;
     for (std::size_t n = m; n < 4; ++n) {
-      accumulate(m_blocks[row][stencil.corner[n] ^ corner], metric, weight * stencil.weight[m] * stencil.weight[n]);
+      m_blocks[row][stencil.corner[n] ^ corner] += weight * stencil.weight[m] * stencil.weight[n] * metric;
     }
   }
 }
@@ -141,16 +143,16 @@ void CubeEquations::add(const CubeStencil& stencil, const Symmetric& metric, con
 void CubeEquations::addSmoothness(const Symmetric& stiffness, const Symmetric& attachment,
                                   const std::vector<Eigen::Vector3f>& start) {
   for (std::size_t row = 0; row < m_nodeOf.size(); ++row) {
-    const Eigen::Vector3f& here = start[m_nodeOf[row]];
-    accumulate(m_blocks[row][0], attachment, 1.0F);
+    const Padded here = padded(start[m_nodeOf[row]]);
+    m_blocks[row][0] += attachment;
     m_right[row] += times(attachment, here);
     for (const unsigned mask : {1U, 2U, 4U}) {
       const std::uint32_t other = m_above[row][mask];
       if (other != kNone) {
-        accumulate(m_blocks[row][0], stiffness, 1.0F);
-        accumulate(m_blocks[other][0], stiffness, 1.0F);
-        accumulate(m_blocks[row][mask], stiffness, -1.0F);
-        const Eigen::Vector3f pull = times(stiffness, start[m_nodeOf[other]] - here);
+        m_blocks[row][0] += stiffness;
+        m_blocks[other][0] += stiffness;
+        m_blocks[row][mask] -= stiffness;
+        const Padded pull = times(stiffness, padded(start[m_nodeOf[other]]) - here);
         m_right[other] += pull;
         m_right[row] -= pull;
       }
@@ -159,21 +161,15 @@ void CubeEquations::addSmoothness(const Symmetric& stiffness, const Symmetric& a
 }
 
 Symmetric CubeEquations::meanBlock() const {
-  std::array<double, 6> sum{};
+  Eigen::Matrix<double, 4, 3> sum = Eigen::Matrix<double, 4, 3>::Zero();
   for (const auto& row : m_blocks) {
-    for (std::size_t k = 0; k < 6; ++k) {
-      sum[k] += static_cast<double>(row[0][k]);
-    }
+    sum += row[0].cast<double>();
   }
-  Symmetric mean{};
-  for (std::size_t k = 0; k < 6; ++k) {
-    mean[k] = static_cast<float>(sum[k] / static_cast<double>(m_blocks.size()));
-  }
-  return mean;
+  return (sum / static_cast<double>(m_blocks.size())).cast<float>();
 }
 
-Eigen::Vector3f CubeEquations::rowTimes(std::size_t row, const Column& x) const {
-  Eigen::Vector3f sum = times(m_blocks[row][0], x[row]);
+Padded CubeEquations::rowTimes(std::size_t row, const Column& x) const {
+  Padded sum = times(m_blocks[row][0], x[row]);
   for (unsigned mask = 1; mask < 8; ++mask) {
     const std::uint32_t above = m_above[row][mask];
     if (above != kNone) {
@@ -192,7 +188,7 @@ int CubeEquations::solve(std::vector<Eigen::Vector3f>& nodes, const std::vector<
   const std::size_t count = m_nodeOf.size();
   Column x(count);
   for (std::size_t row = 0; row < count; ++row) {
-    x[row] = nodes[m_nodeOf[row]];
+    x[row] = padded(nodes[m_nodeOf[row]]);
   }
   std::vector<Symmetric> inverse(count);  // of the blocks on the diagonal; zero where a node is held
   Column residual(count);
@@ -201,23 +197,23 @@ int CubeEquations::solve(std::vector<Eigen::Vector3f>& nodes, const std::vector<
     double sum = 0.0;
     for (std::size_t row = first; row < last; ++row) {
       const bool isHeld = held[m_nodeOf[row]] != 0;
-      inverse[row] = isHeld ? Symmetric{} : inverted(m_blocks[row][0]);
-      residual[row] = isHeld ? Eigen::Vector3f::Zero() : Eigen::Vector3f(m_right[row] - rowTimes(row, x));
+      inverse[row] = isHeld ? Symmetric(Symmetric::Zero()) : inverted(m_blocks[row][0]);
+      residual[row] = isHeld ? Padded(Padded::Zero()) : Padded(m_right[row] - rowTimes(row, x));
       scaled[row] = times(inverse[row], residual[row]);
-      sum += static_cast<double>(residual[row].dot(scaled[row]));
+      sum += product(residual[row], scaled[row]);
     }
     return sum;
   });
   const double enough = square * fall * fall;
   Column direction = scaled;
-  Column product(count);
+  Column image(count);
   int step = 0;
   for (; step < most && square > enough; ++step) {
     const double curvature = sumOverBlocks(count, [&](std::size_t first, std::size_t last) {
       double sum = 0.0;
       for (std::size_t row = first; row < last; ++row) {
-        product[row] = held[m_nodeOf[row]] != 0 ? Eigen::Vector3f::Zero() : rowTimes(row, direction);
-        sum += static_cast<double>(direction[row].dot(product[row]));
+        image[row] = held[m_nodeOf[row]] != 0 ? Padded(Padded::Zero()) : rowTimes(row, direction);
+        sum += product(direction[row], image[row]);
       }
       return sum;
     });
@@ -229,9 +225,9 @@ int CubeEquations::solve(std::vector<Eigen::Vector3f>& nodes, const std::vector<
       double sum = 0.0;
       for (std::size_t row = first; row < last; ++row) {
         x[row] += stride * direction[row];
-        residual[row] -= stride * product[row];
+        residual[row] -= stride * image[row];
         scaled[row] = times(inverse[row], residual[row]);
-        sum += static_cast<double>(residual[row].dot(scaled[row]));
+        sum += product(residual[row], scaled[row]);
       }
       return sum;
     });
@@ -242,7 +238,7 @@ int CubeEquations::solve(std::vector<Eigen::Vector3f>& nodes, const std::vector<
     }
   }
   for (std::size_t row = 0; row < count; ++row) {
-    nodes[m_nodeOf[row]] = x[row];
+    nodes[m_nodeOf[row]] = x[row].head<3>();
   }
   return step;
 }

@@ -27,8 +27,10 @@ inline std::uint32_t cornerStep(unsigned mask, int size) {
   return (mask & 1U) + ((mask >> 1) & 1U) * side + ((mask >> 2) & 1U) * side * side;
 }
 
-/// A symmetric 3 x 3 matrix: (0,0) (1,0) (1,1) (2,0) (2,1) (2,2).
-using Symmetric = std::array<float, 6>;
+/// A symmetric 3 x 3 matrix by its columns, each with a zero below it, and a vector of three with one: four floats are
+/// the processor's word.
+using Symmetric = Eigen::Matrix<float, 4, 3>;
+using Padded = Eigen::Vector4f;
 
 /// Normal equations of the nodes of a lattice that samples touch, three values a node, as 3 x 3 blocks: each node with
 /// itself and with the seven others of the cell above it, which is all that tetrahedra couple.
@@ -61,10 +63,10 @@ class CubeEquations {
   int solve(std::vector<Eigen::Vector3f>& nodes, const std::vector<std::uint8_t>& held, double fall, int most) const;
 
  private:
-  using Column = std::vector<Eigen::Vector3f>;
+  using Column = std::vector<Padded>;
   static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
-  Eigen::Vector3f rowTimes(std::size_t row, const Column& x) const;
+  Padded rowTimes(std::size_t row, const Column& x) const;
 
   std::array<std::uint32_t, 8> m_steps = {};
   std::vector<std::uint32_t> m_rowOf;                 // of a node, or kNone

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLuminance = 0.18;
 /// Chromaticities, and exposures of each a stop.
-constexpr int kChromaticityCount = 12000;
+constexpr int kChromaticityCount = 8000;
 constexpr int kExposuresPerStop = 1;
 /// Stops beyond the range that samples reach. Half a stop, so that what is judged at a stop lies in the middle of what
 /// is fitted, and some more: the ends, of which the dark one is the hardest, else lie at the border of what is weighed.
@@ -100,7 +100,7 @@ class Sampler {
     const double step = kLightStep * std::max(out.cwiseAbs().maxCoeff(), 1e-6);
     return perceptualForm(
         [&](const Eigen::Vector3d& deviation) {
-          return spectral::deltaE2000(lab, spectral::lab(m_xyzFromRgb * (out + deviation), m_white));
+          return spectral::difference2000(lab, spectral::lab(m_xyzFromRgb * (out + deviation), m_white));
         },
         step);
   }
@@ -150,9 +150,8 @@ class Sampler {
       CubeSample sample;
       sample.stencil = cubeStencil(from, m_size);
       sample.target = target;
-      sample.metric = {static_cast<float>(metric(0, 0)), static_cast<float>(metric(1, 0)),
-                       static_cast<float>(metric(1, 1)), static_cast<float>(metric(2, 0)),
-                       static_cast<float>(metric(2, 1)), static_cast<float>(metric(2, 2))};
+      sample.metric.setZero();
+      sample.metric.topRows<3>() = metric.cast<float>();
       sample.lab = directions[k].lab;
       sample.gain = static_cast<float>(gains[k]);
       samples.push_back(sample);

@@ -9,4 +9,7 @@ namespace metamer::ocio {
 /// The first exception thrown by a call is thrown again here.
 void parallelFor(int count, const std::function<void(int)>& body);
 
+/// Calls both at once, where there are threads for it; neither may depend on the other. Exceptions as above.
+void inParallel(const std::function<void()>& one, const std::function<void()>& other);
+
 }  // namespace metamer::ocio

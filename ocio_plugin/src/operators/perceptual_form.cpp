@@ -11,21 +11,13 @@ constexpr double kLeastEigenvalue = 0.02;
 
 }  // namespace
 
-Eigen::Matrix3d perceptualForm(const std::function<double(const Eigen::Vector3d& deviation)>& difference, double step) {
-  const auto squared = [&](const Eigen::Vector3d& direction) {
-    const double slope = difference(step * direction) / step;
-    return slope * slope;
-  };
-  const Eigen::Matrix3d axis = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d form;
-  for (int i = 0; i < 3; ++i) {
-    form(i, i) = squared(axis.col(i));
+Eigen::Matrix3d perceptualForm(const std::function<Eigen::Vector3d(const Eigen::Vector3d& deviation)>& difference,
+                               double step) {
+  Eigen::Matrix3d slope;
+  for (int axis = 0; axis < 3; ++axis) {
+    slope.col(axis) = difference(step * Eigen::Vector3d::Unit(axis)) / step;
   }
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < i; ++j) {
-      form(i, j) = form(j, i) = 0.25 * (squared(axis.col(i) + axis.col(j)) - squared(axis.col(i) - axis.col(j)));
-    }
-  }
+  const Eigen::Matrix3d form = slope.transpose() * slope;
   const Eigen::Vector3d scale = form.diagonal().cwiseSqrt().cwiseMax(1e-12);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scaled(scale.cwiseInverse().asDiagonal() * form *
                                                               scale.cwiseInverse().asDiagonal());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/spectral_integral.h"
@@ -46,6 +47,14 @@ double chromaWeight(double chroma) {
   return std::sqrt(pow7(chroma) / (pow7(chroma) + pow7(25.0)));
 }
 
+/// Of the angles in CIEDE2000's weight of hues, degrees.
+constexpr double kCos30 = 0.86602540378443864676;
+constexpr double kSin30 = 0.5;
+constexpr double kCos6 = 0.99452189536827333692;
+constexpr double kSin6 = 0.10452846326765347140;
+constexpr double kCos63 = 0.45399049973954679156;
+constexpr double kSin63 = 0.89100652418836786236;
+
 struct Terms2000 {
   double lightness;
   double chroma;
@@ -54,44 +63,57 @@ struct Terms2000 {
   Eigen::Vector2d midpoint;  ///< a' and b, twice those between the two colours
 };
 
-/// The parts of CIEDE2000 from lab1 to lab2, each over its own tolerance.
+/// Of the two ways round from one hue to another, whether the shorter one rises. @param cross  of the two directions.
+/// Exactly opposite hues are 180 degrees apart by their angles in 0 ... 360, whatever a rounding error says: the
+/// formula is discontinuous there.
+bool rises(const Eigen::Vector2d& from, double cross) {
+  return cross > 0.0 || (cross == 0.0 && (from[1] > 0.0 || (from[1] == 0.0 && from[0] > 0.0)));
+}
+
+/// Direction of the mean hue, in the middle of the shorter way round. @param rising  as rises() says
+Eigen::Vector2d meanDirection(const Eigen::Vector2d& unit1, const Eigen::Vector2d& unit2, bool rising) {
+  if (unit1.dot(unit2) >= 0.0) {
+    return (unit1 + unit2).normalized();
+  }
+  const Eigen::Vector2d across = (unit2 - unit1).normalized();
+  return rising ? Eigen::Vector2d(across[1], -across[0]) : Eigen::Vector2d(-across[1], across[0]);
+}
+
+/// The parts of CIEDE2000 from lab1 to lab2, each over its own tolerance. Hues are directions, not angles: sums and
+/// multiples of angles are then products, and one arc tangent is left.
 Terms2000 terms2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) {
   // Sharma, Wu and Dalal 2005, equations 2 to 22.
-  const double meanChroma = (std::hypot(lab1[1], lab1[2]) + std::hypot(lab2[1], lab2[2])) / 2.0;
+  const double meanChroma = (lab1.tail<2>().norm() + lab2.tail<2>().norm()) / 2.0;
   const double stretch = 1.0 + 0.5 * (1.0 - chromaWeight(meanChroma));
-  const double a1 = stretch * lab1[1];
-  const double a2 = stretch * lab2[1];
-  const double c1 = std::hypot(a1, lab1[2]);
-  const double c2 = std::hypot(a2, lab2[2]);
-  const double h1 = hueDegrees(a1, lab1[2]);
-  const double h2 = hueDegrees(a2, lab2[2]);
+  const Eigen::Vector2d ab1(stretch * lab1[1], lab1[2]);
+  const Eigen::Vector2d ab2(stretch * lab2[1], lab2[2]);
+  const double c1 = ab1.norm();
+  const double c2 = ab2.norm();
 
-  const bool neutral = c1 * c2 == 0;
-  // Exactly opposite hues count as 180 degrees apart whatever way the last bit of the two arc tangents fell: the
-  // formula is discontinuous there.
-  const bool opposite = a1 * lab2[2] == a2 * lab1[2];
-  const bool throughZero = std::abs(h1 - h2) > 180 && !opposite;
-  double hueStep = neutral ? 0 : h2 - h1;
-  if (throughZero) {
-    hueStep += hueStep > 0 ? -360 : 360;
+  // Neutrals have no hue of their own: no difference, and the other's for a mean.
+  double hueDifference = 0.0;
+  Eigen::Vector2d hue(1.0, 0.0);
+  if (c1 > 0.0 && c2 > 0.0) {
+    const double cross = ab1[0] * ab2[1] - ab1[1] * ab2[0];
+    const double dot = ab1.dot(ab2);
+    const bool rising = rises(ab1, cross);
+    // 2 sqrt(c1 c2) sin(half the angle between), each way where it keeps its digits.
+    hueDifference = dot > 0.0 ? 2.0 * cross / std::sqrt(2.0 * (c1 * c2 + dot))
+                              : (rising ? 1.0 : -1.0) * std::sqrt(2.0 * (c1 * c2 - dot));
+    hue = meanDirection(ab1 / c1, ab2 / c2, rising);
+  } else if (c1 + c2 > 0.0) {
+    hue = (ab1 + ab2) / (c1 + c2);
   }
-  const double lightnessDifference = lab2[0] - lab1[0];
-  const double chromaDifference = c2 - c1;
-  const double hueDifference = 2.0 * std::sqrt(c1 * c2) * std::sin(radians(hueStep / 2.0));
+  const auto [cos1, sin1] = std::pair(hue[0], hue[1]);
+  const auto [cos2, sin2] = std::pair(cos1 * cos1 - sin1 * sin1, 2.0 * sin1 * cos1);
+  const auto [cos3, sin3] = std::pair(cos1 * cos2 - sin1 * sin2, sin1 * cos2 + cos1 * sin2);
+  const auto [cos4, sin4] = std::pair(cos2 * cos2 - sin2 * sin2, 2.0 * sin2 * cos2);
+  const double t = 1.0 - 0.17 * (kCos30 * cos1 + kSin30 * sin1) + 0.24 * cos2 + 0.32 * (kCos6 * cos3 - kSin6 * sin3) -
+                   0.20 * (kCos63 * cos4 + kSin63 * sin4);
 
   const double meanLightness = (lab1[0] + lab2[0]) / 2.0;
   const double meanPrimeChroma = (c1 + c2) / 2.0;
-  double meanHue = h1 + h2;
-  if (!neutral) {
-    if (throughZero) {
-      meanHue += meanHue < 360 ? 360 : -360;
-    }
-    meanHue /= 2;
-  }
-
-  const double t = 1.0 - 0.17 * std::cos(radians(meanHue - 30.0)) + 0.24 * std::cos(radians(2.0 * meanHue)) +
-                   0.32 * std::cos(radians(3.0 * meanHue + 6.0)) - 0.20 * std::cos(radians(4.0 * meanHue - 63.0));
-  const double blueness = (meanHue - 275.0) / 25.0;
+  const double blueness = (hueDegrees(hue[0], hue[1]) - 275.0) / 25.0;
   const double rotation = 30.0 * std::exp(-blueness * blueness);
   const double lightnessOffset = (meanLightness - 50.0) * (meanLightness - 50.0);
   const double sL = 1.0 + 0.015 * lightnessOffset / std::sqrt(20.0 + lightnessOffset);
@@ -99,7 +121,7 @@ Terms2000 terms2000(const Eigen::Vector3d& lab1, const Eigen::Vector3d& lab2) {
   const double sH = 1.0 + 0.015 * meanPrimeChroma * t;
   const double rT = -std::sin(radians(2.0 * rotation)) * 2.0 * chromaWeight(meanPrimeChroma);
 
-  return {lightnessDifference / sL, chromaDifference / sC, hueDifference / sH, rT, {a1 + a2, lab1[2] + lab2[2]}};
+  return {(lab2[0] - lab1[0]) / sL, (c2 - c1) / sC, hueDifference / sH, rT, ab1 + ab2};
 }
 
 }  // namespace
@@ -165,9 +187,9 @@ Eigen::Vector3d difference2000(const Eigen::Vector3d& lab1, const Eigen::Vector3
   const double across = std::sqrt(1.0 - 0.25 * terms.rotation * terms.rotation) * terms.hue;
   // Turned from chroma and hue to a and b by the hue of the midpoint: of a grey and a colour that is the colour's,
   // where the formula's own mean hue hangs on the grey's last bits.
-  const double hue = radians(hueDegrees(terms.midpoint[0], terms.midpoint[1]));
-  return {terms.lightness, std::cos(hue) * along - std::sin(hue) * across,
-          std::sin(hue) * along + std::cos(hue) * across};
+  const double length = terms.midpoint.norm();
+  const Eigen::Vector2d hue = length > 0.0 ? Eigen::Vector2d(terms.midpoint / length) : Eigen::Vector2d(1.0, 0.0);
+  return {terms.lightness, hue[0] * along - hue[1] * across, hue[1] * along + hue[0] * across};
 }
 
 }  // namespace metamer::spectral
