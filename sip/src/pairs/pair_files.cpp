@@ -138,7 +138,8 @@ std::vector<Pair> pairsOfColours(const std::vector<Line>& lines, Numbers numbers
     if (numbers == Numbers::Lab) {
       values = xyzFromLab(values, lightOf(cells[1], library, folder).white);
     }
-    const auto at = std::find_if(named.begin(), named.end(), [&](const auto& one) { return one.first == cells[0]; });
+    const auto at =
+        std::find_if(named.begin(), named.end(), [&cells = cells](const auto& one) { return one.first == cells[0]; });
     std::vector<PairColour>& colours =
         at == named.end() ? named.emplace_back(cells[0], std::vector<PairColour>{}).second : at->second;
     colours.push_back({cells[1], values});

@@ -9,6 +9,7 @@
 
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/stage/chart_difference.h"
+#include "solve/attenuation.h"
 
 namespace metamer::stage {
 namespace {
@@ -54,18 +55,21 @@ class Noise {
 /// One draw's solution.
 struct Sample {
   Matrix3d m, q, n;
+  Matrix3d freedQ;  ///< without what the noise takes from it
   Vector3d drive;
   double meanBefore = 0;
   double meanAfter = 0;
   double maxAfter = 0;
 };
 
-Sample solved(const WallCapture& capture, const WallOptions& walls, const IntervalOptions& options) {
+/// @param times  how often the noise lies on the capture
+Sample solved(const WallCapture& capture, const WallOptions& walls, const IntervalOptions& options, double times) {
   const WallSolution solution = solveWall(capture, walls);
   Sample sample;
   sample.m = solution.wallFromContent;
   sample.q = solution.correctedFromCamera;
-  sample.n = solution.frustumFromContent;
+  sample.freedQ = withoutAttenuation(capture, walls, solution, options.noise, times);
+  sample.n = sample.m * boundedInverse(sample.freedQ, walls.largestCondition);
   sample.drive = solution.environmentDrive;
   double exposure = 1;
   if (options.exposurePatch >= 0 && solution.predicted(1, options.exposurePatch) > 0 &&
@@ -98,12 +102,15 @@ Interval<Value> ends(const std::vector<Sample>& samples, const Take& take) {
 }
 
 template <typename Take>
-Interval<double> turnedEnds(const std::vector<Sample>& samples, const Sample& centre, const Take& take) {
+std::vector<double> taken(const std::vector<Sample>& samples, const Take& take) {
   std::vector<double> values(samples.size());
-  for (std::size_t s = 0; s < samples.size(); ++s) {
-    values[s] = take(samples[s]);
-  }
-  const Interval<double> found = endsOf(std::move(values));
+  std::transform(samples.begin(), samples.end(), values.begin(), take);
+  return values;
+}
+
+template <typename Take>
+Interval<double> turnedEnds(const std::vector<Sample>& samples, const Sample& centre, const Take& take) {
+  const Interval<double> found = endsOf(taken(samples, take));
   return {std::max(0.0, 2 * take(centre) - found.high), std::max(0.0, 2 * take(centre) - found.low)};
 }
 
@@ -117,6 +124,17 @@ void check(const IntervalOptions& options, Eigen::Index patches) {
 }
 
 }  // namespace
+
+Interval<double> loweredEnds(std::vector<double> values, double centre) {
+  double squares = 0;
+  for (const double value : values) {
+    squares += value * value / static_cast<double>(values.size());
+  }
+  const double twice = 2 * (squares - centre * centre);
+  const Interval<double> found = endsOf(std::move(values));
+  const auto lowered = [&](double end) { return std::sqrt(std::max(0.0, end * end - twice)); };
+  return {lowered(found.low), lowered(found.high)};
+}
 
 Interval<double> endsOf(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -156,11 +174,11 @@ WallCapture noisyCapture(const WallCapture& capture, const IntervalOptions& opti
 WallIntervals wallIntervals(const WallCapture& capture, const WallOptions& walls, const IntervalOptions& options) {
   check(options, capture.target.cols());
   const WallSolution nominal = solveWall(capture, walls);
-  const Sample centre = solved(capture, walls, options);
+  const Sample centre = solved(capture, walls, options, 1);
   std::vector<Sample> samples(static_cast<std::size_t>(options.samples));
   const auto body = [&](int i) {
     const auto sample = static_cast<std::uint64_t>(i);
-    samples[static_cast<std::size_t>(i)] = solved(noisyCapture(capture, options, sample), walls, options);
+    samples[static_cast<std::size_t>(i)] = solved(noisyCapture(capture, options, sample), walls, options, 2);
   };
   if (options.runAll) {
     options.runAll(options.samples, body);
@@ -202,16 +220,16 @@ WallIntervals wallIntervals(const WallCapture& capture, const WallOptions& walls
       }
     }
     for (Sample& sample : samples) {
-      sample.n = sample.m * boundedInverse(sample.q, result.largestCondition);
+      sample.n = sample.m * boundedInverse(sample.freedQ, result.largestCondition);
     }
   }
   result.wallFromContent = ends<Matrix3d>(samples, [](const Sample& s) -> const Matrix3d& { return s.m; });
-  result.correctedFromCamera = ends<Matrix3d>(samples, [](const Sample& s) -> const Matrix3d& { return s.q; });
+  result.correctedFromCamera = ends<Matrix3d>(samples, [](const Sample& s) -> const Matrix3d& { return s.freedQ; });
   result.frustumFromContent = ends<Matrix3d>(samples, [](const Sample& s) -> const Matrix3d& { return s.n; });
   result.environmentDrive = ends<Vector3d>(samples, [](const Sample& s) -> const Vector3d& { return s.drive; });
   result.meanBefore = turnedEnds(samples, centre, [](const Sample& s) { return s.meanBefore; });
-  result.meanAfter = turnedEnds(samples, centre, [](const Sample& s) { return s.meanAfter; });
-  result.maxAfter = turnedEnds(samples, centre, [](const Sample& s) { return s.maxAfter; });
+  result.meanAfter = loweredEnds(taken(samples, [](const Sample& s) { return s.meanAfter; }), centre.meanAfter);
+  result.maxAfter = loweredEnds(taken(samples, [](const Sample& s) { return s.maxAfter; }), centre.maxAfter);
   return result;
 }
 

@@ -44,6 +44,12 @@ struct Interval {
 /// @param values  at least one, in any order; linear between neighbours
 Interval<double> endsOf(std::vector<double> values);
 
+/// Ends for what noise makes larger, as it does the length of a difference: squares grow by the noise's, by as much in
+/// the draws over the centre as in the centre over the truth. So that is taken from the ends' squares twice.
+/// @param values  at least one, of draws
+/// @param centre  of what was drawn from
+Interval<double> loweredEnds(std::vector<double> values, double centre);
+
 struct WallIntervals {
   int samples = 0;
   Interval<Eigen::Matrix3d> wallFromContent;      ///< M
@@ -66,9 +72,10 @@ double normalNumber(std::uint64_t seed, std::uint64_t sample, std::uint64_t plac
 /// white.
 WallCapture noisyCapture(const WallCapture& capture, const IntervalOptions& options, std::uint64_t sample);
 
-/// 95 % intervals of a wall's solution by Monte Carlo: each sample is the capture with noise once more, solved. Those
-/// of colour differences are turned round the solution's own (Davison and Hinkley 1997, basic bootstrap), since noise
-/// on top of noise raises them; not below 0.
+/// 95 % intervals of a wall's solution by Monte Carlo: each sample is the capture with noise once more, solved. Noise
+/// biases two things, and the draws have it twice. It makes Q smaller where the chart's colours are weak in the wall's
+/// light: draws of Q and N are freed of that. It raises colour differences: their ends are lowered (loweredEnds), or,
+/// before Q, turned round the solution's own (Davison and Hinkley 1997, basic bootstrap); not below 0.
 ///
 /// Where asked, the bound of N is the smallest of kTradeOffLimits and `walls.largestCondition` whose in-frustum error
 /// over the samples is within 5 % of the least: less would lose colours that are known, more would show noise.
