@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace metamer::spectral_ref {
 namespace {
@@ -36,50 +36,64 @@ struct LightTree::Built {
   Cone cone;
 };
 
+/// What the order is made by, packed: a build reads it over and over.
+struct LightTree::Place {
+  Vec3 twiceCenter;
+  std::uint32_t light;
+};
+
 LightTree::LightTree(const std::vector<LightBounds>& lights) : m_order(lights.size()), m_position(lights.size()) {
-  std::iota(m_order.begin(), m_order.end(), 0U);
   const auto count = static_cast<std::uint32_t>(lights.size());
   if (count == 0) {
     return;
   }
+  std::vector<Place> places;
+  places.reserve(lights.size());
+  for (std::uint32_t light = 0; light < count; ++light) {
+    places.push_back({lights[light].least + lights[light].most, light});
+  }
+  const auto far =
+      std::partition(places.begin(), places.end(), [&](const Place& place) { return !lights[place.light].isInfinite; });
   m_nodes.reserve(2 * lights.size());
-  build(lights, 0, count);
+  build(lights, places, static_cast<std::uint32_t>(far - places.begin()), 0, count);
   m_below.reserve(lights.size() + 1);
   m_below.push_back(0.0);
   const bool isBlack = !(m_nodes[0].intensity > 0.0F);
   for (std::uint32_t i = 0; i < count; ++i) {
+    m_order[i] = places[i].light;
     m_position[m_order[i]] = i;
     m_below.push_back(m_below.back() + (isBlack ? 1.0 : static_cast<double>(lights[m_order[i]].intensity)));
   }
 }
 
-std::uint32_t LightTree::split(const std::vector<LightBounds>& lights, std::uint32_t begin, std::uint32_t end) {
-  const auto first = m_order.begin() + begin;
-  const auto last = m_order.begin() + end;
-  const auto far = std::partition(first, last, [&](std::uint32_t light) { return !lights[light].isInfinite; });
-  if (far != first && far != last) {
-    return static_cast<std::uint32_t>(far - m_order.begin());
-  }
+namespace {
+
+/// Puts the lesser half along the longest axis first, and says where the other begins.
+template <typename Place>
+std::uint32_t halved(std::vector<Place>& places, std::uint32_t begin, std::uint32_t end) {
   Vec3 least = Vec3::Constant(std::numeric_limits<float>::infinity());
   Vec3 most = -least;
-  for (auto i = first; i != last; ++i) {
-    const Vec3 twice = lights[*i].least + lights[*i].most;
-    least = least.cwiseMin(twice);
-    most = most.cwiseMax(twice);
+  for (std::uint32_t i = begin; i < end; ++i) {
+    least = least.cwiseMin(places[i].twiceCenter);
+    most = most.cwiseMax(places[i].twiceCenter);
   }
   Eigen::Index axis = 0;
   (most - least).maxCoeff(&axis);
   const std::uint32_t middle = begin + (end - begin) / 2;
   // By number where places are equal: the same tree whatever the library.
-  std::nth_element(first, m_order.begin() + middle, last, [&](std::uint32_t a, std::uint32_t b) {
-    const float placeA = lights[a].least[axis] + lights[a].most[axis];
-    const float placeB = lights[b].least[axis] + lights[b].most[axis];
-    return placeA != placeB ? placeA < placeB : a < b;
-  });
+  std::nth_element(places.begin() + begin, places.begin() + middle, places.begin() + end,
+                   [axis](const Place& a, const Place& b) {
+                     const float placeA = a.twiceCenter[axis];
+                     const float placeB = b.twiceCenter[axis];
+                     return placeA != placeB ? placeA < placeB : a.light < b.light;
+                   });
   return middle;
 }
 
-LightTree::Built LightTree::build(const std::vector<LightBounds>& lights, std::uint32_t begin, std::uint32_t end) {
+}  // namespace
+
+LightTree::Built LightTree::build(const std::vector<LightBounds>& lights, std::vector<Place>& places,
+                                  std::uint32_t firstFar, std::uint32_t begin, std::uint32_t end) {
   const std::size_t index = m_nodes.size();
   m_nodes.emplace_back();
   Node node{};
@@ -87,15 +101,17 @@ LightTree::Built LightTree::build(const std::vector<LightBounds>& lights, std::u
   node.end = end;
   Built built{};
   if (end - begin == 1) {
-    const LightBounds& light = lights[m_order[begin]];
+    const LightBounds& light = lights[places[begin].light];
     built = {light.least, light.most, {light.axis, light.spread}};
     node.intensity = light.intensity;
     node.isInfinite = light.isInfinite;
   } else {
-    const std::uint32_t middle = split(lights, begin, end);
-    const Built left = build(lights, begin, middle);
+    // Those far away come last in the whole order, in a half of their own.
+    const bool isMixed = begin < firstFar && firstFar < end;
+    const std::uint32_t middle = isMixed ? firstFar : halved(places, begin, end);
+    const Built left = build(lights, places, firstFar, begin, middle);
     node.right = static_cast<std::uint32_t>(m_nodes.size());
-    const Built right = build(lights, middle, end);
+    const Built right = build(lights, places, firstFar, middle, end);
     const Node& first = m_nodes[index + 1];
     const Node& second = m_nodes[node.right];
     built = {left.least.cwiseMin(right.least), left.most.cwiseMax(right.most), united(left.cone, right.cone)};

@@ -58,8 +58,9 @@ class LightTree {
 
  private:
   struct Built;
-  Built build(const std::vector<LightBounds>& lights, std::uint32_t begin, std::uint32_t end);
-  std::uint32_t split(const std::vector<LightBounds>& lights, std::uint32_t begin, std::uint32_t end);
+  struct Place;
+  Built build(const std::vector<LightBounds>& lights, std::vector<Place>& places, std::uint32_t firstFar,
+              std::uint32_t begin, std::uint32_t end);
 
   std::vector<Node> m_nodes;
   std::vector<std::uint32_t> m_order;     ///< light at each position
