@@ -60,7 +60,7 @@ std::array<T, 3> evaluate(const sip::HomogeneousMap& map, const float* rgb) {
     const int column = cellOf(fine(0));
     const int line = cellOf(fine(1));
     const auto node = [&](int i, int j) {
-      return map.fine.data() + 4 * ((line + j) * (Map::kFineSide + 1) + column + i);
+      return map.fine.data() + std::ptrdiff_t{4} * ((line + j) * (Map::kFineSide + 1) + column + i);
     };
     if (node(0, 0)[3] == 0.0F) {
       const T u = fine(0) - T(column);
