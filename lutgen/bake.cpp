@@ -11,6 +11,7 @@
 #include "metamer/ocio/working_space.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "overrides.h"
 #include "progress.h"
@@ -102,12 +103,13 @@ void bake(const BakeArguments& arguments) {
     throw CLI::ValidationError("--stdout", "needs --format");
   }
   if (!arguments.toStdout) {
-    spectral::requireWritable(arguments.output);
+    spectral::requireWritable(spectral::pathOf(arguments.output));
   }
-  const ocio::LutFormat& format =
-      arguments.toStdout ? ocio::lutFormatNamed(arguments.format) : ocio::lutFormat(arguments.output, arguments.format);
+  const ocio::LutFormat& format = arguments.toStdout
+                                      ? ocio::lutFormatNamed(arguments.format)
+                                      : ocio::lutFormat(spectral::pathOf(arguments.output), arguments.format);
   if (!arguments.luts.empty()) {
-    if (!arguments.toStdout && spectral::isStream(arguments.output)) {
+    if (!arguments.toStdout && spectral::isStream(spectral::pathOf(arguments.output))) {
       standardOutput();
     }
     const std::vector<std::filesystem::path> luts(arguments.luts.begin(), arguments.luts.end());
@@ -115,7 +117,7 @@ void bake(const BakeArguments& arguments) {
     if (arguments.toStdout) {
       standardOutput() << text;
     } else {
-      spectral::writeWholeFile(arguments.output, text);
+      spectral::writeWholeFile(spectral::pathOf(arguments.output), text);
     }
     summarise((arguments.toStdout ? format.name : arguments.output) + ": " + std::to_string(luts.size()) +
               (luts.size() == 1 ? " LUT file" : " LUT files") + " written anew");
@@ -124,7 +126,7 @@ void bake(const BakeArguments& arguments) {
   const auto library = spectral::DataLibrary::openDefault();
   const sip::Recipe recipe = recipeOf(arguments, library);
   ocio::BakeOptions options = optionsOf(arguments);
-  if (arguments.toStdout || spectral::isStream(arguments.output)) {
+  if (arguments.toStdout || spectral::isStream(spectral::pathOf(arguments.output))) {
     standardOutput();  // no word may come between
   }
   const std::string what = arguments.toStdout ? format.name : arguments.output;
@@ -132,7 +134,7 @@ void bake(const BakeArguments& arguments) {
     Progress progress(what);
     options.progress = [&progress](double share) { progress.show(share); };
     if (!arguments.toStdout) {
-      return ocio::bakeFile(recipe, library, arguments.output, format.name, options);
+      return ocio::bakeFile(recipe, library, spectral::pathOf(arguments.output), format.name, options);
     }
     ocio::BakedText baked = ocio::bakeText(recipe, library, format.name, options);
     standardOutput() << baked.text;

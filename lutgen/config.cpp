@@ -10,6 +10,7 @@
 #include "metamer/ocio/config_writer.h"
 #include "metamer/ocio/log_cube.h"
 #include "metamer/spectral/formatted.h"
+#include "metamer/spectral/path_text.h"
 #include "progress.h"
 #include "run.h"
 
@@ -27,14 +28,14 @@ void writeConfig(const ConfigArguments& arguments) {
   const auto library = spectral::DataLibrary::openDefault();
   std::vector<sip::Recipe> recipes;
   for (const std::string& file : arguments.recipes) {
-    recipes.push_back(sip::readRecipe(file));
+    recipes.push_back(sip::readRecipe(spectral::pathOf(file)));
   }
   ocio::ConfigOptions options = arguments.options;
-  options.base = arguments.base;
+  options.base = spectral::pathOf(arguments.base);
   const ocio::ConfigReport report = [&] {
     Progress progress(arguments.output);
     options.progress = [&progress](double share) { progress.show(share); };
-    return ocio::writeConfig(recipes, library, arguments.output, options);
+    return ocio::writeConfig(recipes, library, spectral::pathOf(arguments.output), options);
   }();
   for (const ocio::ConfigEntry& entry : report.entries) {
     note(entry.certificate.notes);

@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "metamer/ocio/certificate_record.h"
+#include "metamer/spectral/path_text.h"
 #include "run.h"
 
 namespace metamer::lutgen {
@@ -32,8 +33,8 @@ Json jsonOf(const DiffArguments& arguments, const std::vector<ocio::CertificateC
 }
 
 void diff(const DiffArguments& arguments) {
-  const std::vector<ocio::CertificateChange> changes =
-      changesBetween(ocio::readCertificate(arguments.a), ocio::readCertificate(arguments.b));
+  const std::vector<ocio::CertificateChange> changes = changesBetween(
+      ocio::readCertificate(spectral::pathOf(arguments.a)), ocio::readCertificate(spectral::pathOf(arguments.b)));
   if (arguments.isJson) {
     standardOutput() << jsonOf(arguments, changes).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   } else {

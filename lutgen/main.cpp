@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "commands.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/platform.h"
 #include "run.h"
 
@@ -35,7 +36,7 @@ int main(int argumentCount, char** arguments) {
   if (argumentCount > 1 && isForPictures(arguments[1])) {
     const auto program = metamer::spectral::programFolder() / kPicturesProgram;
     metamer::spectral::becomeProgram(program, arguments);
-    return fail(program.string() + ": cannot be run; it belongs beside lutgen, install both", kFailure);
+    return fail(metamer::spectral::utf8(program) + ": cannot be run; it belongs beside lutgen, install both", kFailure);
   }
   return run(argumentCount, arguments, addCommands);
 }

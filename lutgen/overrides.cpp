@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
@@ -27,7 +28,8 @@ std::string fromWorkingFolder(const std::string& nameOrFile, const std::vector<s
     return nameOrFile;
   }
   const auto [file, column] = spectral::spectralFileName(nameOrFile);
-  return std::filesystem::absolute(file).lexically_normal().string() + (column.empty() ? "" : ":" + column);
+  return spectral::utf8(std::filesystem::absolute(spectral::pathOf(file)).lexically_normal()) +
+         (column.empty() ? "" : ":" + column);
 }
 
 /// The whole text as a number.
@@ -150,7 +152,7 @@ sip::Recipe recipeWith(const std::string& recipeFile, const Overrides& overrides
                        const spectral::DataLibrary& library) {
   sip::Recipe recipe;
   if (!recipeFile.empty()) {
-    recipe = sip::readRecipe(recipeFile);
+    recipe = sip::readRecipe(spectral::pathOf(recipeFile));
   }
   const auto replace = [](std::string& value, const std::optional<std::string>& text,
                           const std::vector<std::string>& names) {

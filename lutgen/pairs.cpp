@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
@@ -85,13 +86,13 @@ std::string tableOf(const std::vector<sip::Pair>& pairs) {
 
 /// What an earlier call left; none where there is no file yet.
 std::vector<sip::Pair> pairsAlready(const std::string& file, const spectral::DataLibrary& library) {
-  if (!std::filesystem::exists(file)) {
+  if (!std::filesystem::exists(spectral::pathOf(file))) {
     return {};
   }
-  if (sip::isTableOfColours(file)) {
+  if (sip::isTableOfColours(spectral::pathOf(file))) {
     throw InputError(file, "pairs", "", "holds colours and not spectra; add a row to it by hand, or name another file");
   }
-  return sip::readPairs(std::filesystem::absolute(file).string(), library);
+  return sip::readPairs(spectral::utf8(std::filesystem::absolute(spectral::pathOf(file))), library);
 }
 
 void add(const AddArguments& arguments) {
@@ -101,10 +102,10 @@ void add(const AddArguments& arguments) {
   if (!arguments.colours.empty() && !arguments.name) {
     throw CLI::ValidationError("--colour", "needs --name");
   }
-  if (spectral::lowerCase(std::filesystem::path(arguments.file).extension().string()) != ".csv") {
+  if (spectral::lowerCase(spectral::utf8(spectral::pathOf(arguments.file).extension())) != ".csv") {
     throw InputError(arguments.file, "extension", "", "must be .csv");
   }
-  spectral::requireWritable(arguments.file);
+  spectral::requireWritable(spectral::pathOf(arguments.file));
   const auto library = spectral::DataLibrary::openDefault();
   std::vector<sip::Pair> pairs = pairsAlready(arguments.file, library);
   std::vector<sip::Pair> added;
@@ -136,13 +137,13 @@ void add(const AddArguments& arguments) {
     }
     pairs.push_back(pair);
   }
-  spectral::writeWholeFile(arguments.file, tableOf(pairs));
+  spectral::writeWholeFile(spectral::pathOf(arguments.file), tableOf(pairs));
   summarise(arguments.file + ": " + std::to_string(added.size()) + (added.size() == 1 ? " pair" : " pairs") +
             " added, " + std::to_string(pairs.size()) + " in all");
 }
 
 sip::Recipe recipeOf(const CheckArguments& arguments, const spectral::DataLibrary& library) {
-  const std::string extension = spectral::lowerCase(std::filesystem::path(arguments.pairs).extension().string());
+  const std::string extension = spectral::lowerCase(spectral::utf8(spectral::pathOf(arguments.pairs).extension()));
   if (extension == ".yaml" || extension == ".yml") {
     return recipeWith(arguments.pairs, arguments.overrides, library);
   }

@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/storage_file.h"
 #include "metamer/spectral/text.h"
@@ -173,7 +174,7 @@ void pack(const PackOptions& options) {
   const Packer packer(options);
   const Packed packed =
       options.tolerance ? packer.cheapest(*options.tolerance) : packer.packed(packer.form(), options.numbers);
-  spectral::writeWholeFile(options.output, spectral::storageText(packed.set));
+  spectral::writeWholeFile(spectral::pathOf(options.output), spectral::storageText(packed.set));
   const std::string how = options.use == "light" ? "the ColorChecker under them" : spectral::joined(options.lights);
   const std::size_t count = packed.set.entries.size();
   summarise(spectral::formatted(
@@ -184,7 +185,7 @@ void pack(const PackOptions& options) {
 }
 
 void show(const std::string& file) {
-  const StoredSet set = spectral::readStorage(file);
+  const StoredSet set = spectral::readStorage(spectral::pathOf(file));
   for (const StoredSet::Entry& entry : set.entries) {
     const auto& spectrum = entry.spectrum;
     words() << entry.name << '\t' << spectrum.numbers.size() << " numbers, " << spectrum.bytes() << " bytes";
@@ -229,7 +230,7 @@ double sampleAt(const DomainSamples& samples, int place, int step, bool isLight)
 }
 
 void convert(const std::string& file, const std::string& output, int step) {
-  const StoredSet set = spectral::readStorage(file);
+  const StoredSet set = spectral::readStorage(spectral::pathOf(file));
   const spectral::SpectrumStorage storage(spectral::DataLibrary::openDefault());
   std::string text = "wavelength_nm";
   std::vector<DomainSamples> spectra;
@@ -247,7 +248,7 @@ void convert(const std::string& file, const std::string& output, int step) {
       text += spectral::formatted(",%.7g", sampleAt(samples, k, step, set.isLight));
     }
   }
-  spectral::writeWholeFile(output, text + "\n");
+  spectral::writeWholeFile(spectral::pathOf(output), text + "\n");
   summarise(spectral::formatted("%s: %zu spectra every %d nm", output.c_str(), spectra.size(), step));
 }
 

@@ -7,6 +7,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/png_check.h"
 #include "space_names.h"
@@ -32,8 +33,8 @@ namespace {
 
 /// The file's name, once it is known to be none that its library would talk about.
 std::string checked(const std::filesystem::path& file) {
-  spectral::refuseBrokenPng(file.string());
-  return file.string();
+  spectral::refuseBrokenPng(spectral::utf8(file));
+  return spectral::utf8(file);
 }
 
 }  // namespace
@@ -42,19 +43,19 @@ Picture::Picture(const std::filesystem::path& file) : m_pixels(checked(file)) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
     static_cast<void>(m_pixels.geterror());  // else OpenImageIO says it as well, on stdout
-    throw InputError(file.string(), "", "", "is not there; check the path");
+    throw InputError(spectral::utf8(file), "", "", "is not there; check the path");
   }
   if (!m_pixels.read(0, 0, true, OIIO::TypeDesc::FLOAT)) {
-    throw InputError(file.string(), "", "", "cannot be read: " + spectral::pictureReason(m_pixels.geterror()));
+    throw InputError(spectral::utf8(file), "", "", "cannot be read: " + spectral::pictureReason(m_pixels.geterror()));
   }
   if (m_pixels.nsubimages() > 1) {
-    throw InputError(file.string(), "parts", std::to_string(m_pixels.nsubimages()),
+    throw InputError(spectral::utf8(file), "parts", std::to_string(m_pixels.nsubimages()),
                      "only pictures of one part are transformed; split it first");
   }
   if (m_pixels.deep()) {
-    throw InputError(file.string(), "", "", "is a deep picture; flatten it first");
+    throw InputError(spectral::utf8(file), "", "", "is a deep picture; flatten it first");
   }
-  m_colours = colourChannels(m_pixels.spec(), file.string());
+  m_colours = colourChannels(m_pixels.spec(), spectral::utf8(file));
 }
 
 stage::PictureView Picture::view() const {
@@ -94,8 +95,8 @@ void decodeSrgb(std::span<float> rgba) {
 void writePixels(const OIIO::ImageBuf& pixels, const std::filesystem::path& file, const OIIO::TypeDesc& type,
                  const std::string& field, const std::string& format) {
   spectral::PendingFile pending(file);
-  if (!pixels.write(pending.path().string(), type, format)) {
-    throw InputError(file.string(), field, "", "cannot be written: " + pixels.geterror());
+  if (!pixels.write(spectral::utf8(pending.path()), type, format)) {
+    throw InputError(spectral::utf8(file), field, "", "cannot be written: " + pixels.geterror());
   }
   pending.commit();
 }

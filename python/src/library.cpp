@@ -4,7 +4,6 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "bindings.h"
@@ -21,7 +20,7 @@ using spectral::DataLibrary;
 /// Beside the module in a wheel, in share/ of an install tree.
 DataLibrary openUsual() {
   static const char kAnchor = 0;
-  if (std::getenv("METAMER_DATA") == nullptr) {
+  if (!spectral::environmentValue("METAMER_DATA")) {
     const std::filesystem::path own = spectral::libraryFolder(&kAnchor);
     std::error_code error;
     for (const std::filesystem::path& folder :

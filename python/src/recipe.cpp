@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "bindings.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "recipe_with_spectra.h"
 #include "spectrum_like.h"
@@ -108,7 +109,7 @@ void bindFields(Binding& binding) {
   const auto field = [&](const char* name, const auto& get) {
     binding.def_prop_ro(name, [get](const RecipeWithSpectra& self) { return get(self.named); });
   };
-  field("folder", [](const sip::Recipe& recipe) { return recipe.folder.string(); });
+  field("folder", [](const sip::Recipe& recipe) { return spectral::utf8(recipe.folder); });
   field("where", [](const sip::Recipe& recipe) { return recipe.where; });
   field("name", [](const sip::Recipe& recipe) { return recipe.name; });
   field("space", [](const sip::Recipe& recipe) { return recipe.space; });

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "metamer/spectral/path_text.h"
 #include "spectrum_like.h"
 
 namespace metamer::python {
@@ -68,7 +69,7 @@ RecipeWithSpectra recipeFrom(nb::handle object) {
     return nb::cast<RecipeWithSpectra>(object);
   }
   if (const auto file = nameOrFile(object)) {
-    return {sip::readRecipe(*file), {}, {}};
+    return {sip::readRecipe(spectral::pathOf(*file)), {}, {}};
   }
   throw nb::type_error("recipe: must be a metamer.Recipe or a recipe's file");
 }

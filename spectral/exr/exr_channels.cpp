@@ -16,6 +16,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/missing_file_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_picture.h"
 
 namespace metamer::spectral {
@@ -27,7 +28,7 @@ constexpr std::int64_t kFloatBytes = sizeof(float);
 
 void requireFile(const std::string& file) {
   std::error_code none;
-  const auto status = std::filesystem::status(file, none);
+  const auto status = std::filesystem::status(pathOf(file), none);
   if (status.type() == std::filesystem::file_type::not_found) {
     throw MissingFileError(file, "", "", "no such file");
   }

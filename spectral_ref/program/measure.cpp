@@ -13,6 +13,7 @@
 #include "commands.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
+#include "metamer/spectral/path_text.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -109,7 +110,7 @@ nlohmann::json number(double value) {
 }
 
 void measureFile(const MeasureArguments& arguments) {
-  const Measurement measurement = measure(arguments.file, areasOf(arguments));
+  const Measurement measurement = measure(spectral::pathOf(arguments.file), areasOf(arguments));
   if (!arguments.json) {
     std::printf("%-16s %14s %14s %14s %14s %14s\n", "patch", "R", "G", "B", "Y", "+- 95 %");
     for (const PatchMean& patch : measurement.patches) {

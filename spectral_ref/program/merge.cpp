@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral_ref/exr_film.h"
 
@@ -50,11 +51,11 @@ void checkComplete(const MergeArguments& arguments, const SampleRanges& ranges) 
 
 void merge(const MergeArguments& arguments) {
   requireExr(arguments.output);
-  spectral::requireWritable(arguments.output);
-  auto [film, notes] = readExrState(arguments.files.front());
+  spectral::requireWritable(spectral::pathOf(arguments.output));
+  auto [film, notes] = readExrState(spectral::pathOf(arguments.files.front()));
   for (std::size_t i = 1; i < arguments.files.size(); ++i) {
     const std::string& file = arguments.files[i];
-    const auto [other, otherNotes] = readExrState(file);
+    const auto [other, otherNotes] = readExrState(spectral::pathOf(file));
     for (std::size_t n = 0; n < notes.size(); ++n) {
       if (n >= otherNotes.size() || notes[n] != otherNotes[n]) {
         throw spectral::InputError(file, notes[n].first, n < otherNotes.size() ? otherNotes[n].second : "",
@@ -69,7 +70,7 @@ void merge(const MergeArguments& arguments) {
   }
   const bool withReplicates = std::any_of(
       notes.begin(), notes.end(), [](const auto& note) { return note.first == "restir" && note.second != "off"; });
-  writeExr(film, notes, arguments.output, arguments.keepsState, withReplicates);
+  writeExr(film, notes, spectral::pathOf(arguments.output), arguments.keepsState, withReplicates);
   if (film.refused > 0) {
     warn(arguments.output + ": " + std::to_string(film.refused) +
          " samples were no finite number and are left out; the picture is too dark by their share");

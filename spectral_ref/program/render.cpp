@@ -15,6 +15,7 @@
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/interruption.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral_ref/checkpoint.h"
 #include "metamer/spectral_ref/exr_film.h"
@@ -88,7 +89,7 @@ class RenderJob {
       : m_arguments(arguments),
         m_checkpoint(checkOutput(arguments)),
         m_library(spectral::DataLibrary::openDefault()),
-        m_scene(readScene(arguments.scene, m_library)) {
+        m_scene(readScene(spectral::pathOf(arguments.scene), m_library)) {
     for (const std::string& warning : m_scene.warnings) {
       warn(warning);
     }
@@ -117,9 +118,9 @@ class RenderJob {
     std::error_code none;
     if (arguments.resume && std::filesystem::exists(m_checkpoint, none)) {
       readCheckpoint(m_checkpoint,
-                     [this](const ByteSource& state) { m_renderer->restore(state, m_checkpoint.string()); });
+                     [this](const ByteSource& state) { m_renderer->restore(state, spectral::utf8(m_checkpoint)); });
       if (m_renderer->nextSample() > m_range[1]) {
-        throw InputError(m_checkpoint.string(), "samples", std::to_string(m_renderer->nextSample()),
+        throw InputError(spectral::utf8(m_checkpoint), "samples", std::to_string(m_renderer->nextSample()),
                          "are more than asked for (" + std::to_string(m_range[1]) + "); ask for more or delete it");
       }
     }
@@ -138,10 +139,11 @@ class RenderJob {
     spectral::endCleanlyBySignals("spectral_ref");
     if (!m_arguments.guideDump.empty()) {
       m_renderer->render(m_range[1], 0);  // learns, where a resumed render had nothing left to do
-      writeGuideDump(*m_renderer, m_guidePixels, m_arguments.guideDump);
+      writeGuideDump(*m_renderer, m_guidePixels, spectral::pathOf(m_arguments.guideDump));
     }
     const Film& film = m_renderer->film();
-    writeExr(film, notes(), m_arguments.output, !m_arguments.range.empty(), m_arguments.restir != "off");
+    writeExr(film, notes(), spectral::pathOf(m_arguments.output), !m_arguments.range.empty(),
+             m_arguments.restir != "off");
     if (film.refused > 0) {
       warn(m_arguments.output + ": " + std::to_string(film.refused) +
            " samples were no finite number and are left out; the picture is too dark by their share");
@@ -158,9 +160,9 @@ class RenderJob {
   /// Says before hours of work what could not be written after them. @return the checkpoint's file
   static std::filesystem::path checkOutput(const RenderArguments& arguments) {
     requireExr(arguments.output);
-    spectral::requireWritable(arguments.output);
-    spectral::requireWritable(arguments.guideDump);
-    return arguments.output + ".checkpoint";
+    spectral::requireWritable(spectral::pathOf(arguments.output));
+    spectral::requireWritable(spectral::pathOf(arguments.guideDump));
+    return spectral::pathOf(arguments.output + ".checkpoint");
   }
 
   /// @return false where a signal stopped it
@@ -266,7 +268,7 @@ std::array<std::uint64_t, 2> parseRange(const std::string& flag, const std::stri
 }
 
 void requireExr(const std::string& file) {
-  const std::string extension = std::filesystem::path(file).extension().string();
+  const std::string extension = spectral::utf8(spectral::pathOf(file).extension());
   if (extension != ".exr") {
     throw InputError(file, "extension", extension, "must be .exr");
   }

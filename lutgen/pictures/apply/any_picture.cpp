@@ -12,6 +12,7 @@
 #include "apply/sample_types.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/png_check.h"
 #include "metamer/spectral/text.h"
@@ -43,7 +44,7 @@ std::unique_ptr<ImageOutput> outputFor(const std::string& file) {
   auto output = ImageOutput::create(file);
   if (!output) {
     OIIO::geterror();
-    throw InputError(file, "format", std::filesystem::path(file).extension().string(),
+    throw InputError(file, "format", spectral::utf8(spectral::pathOf(file).extension()),
                      "is not known; write .exr, .tif, .png, .jpg or .dpx");
   }
   return output;
@@ -88,7 +89,7 @@ SampleType sampleTypeNamed(const std::string& name) {
   throw InputError("-d", "type", name, "write half, float, uint8, uint10, uint12 or uint16");
 }
 
-AnyPicture::AnyPicture(const std::filesystem::path& file, std::int64_t mostPixels) : m_file(file.string()) {
+AnyPicture::AnyPicture(const std::filesystem::path& file, std::int64_t mostPixels) : m_file(spectral::utf8(file)) {
   const auto input = opened(m_file);
   m_format = input->format_name();
   for (int index = 0; input->seek_subimage(index, 0); ++index) {
@@ -138,7 +139,7 @@ std::vector<PartFacts> AnyPicture::facts() const {
 
 void AnyPicture::plan(const std::filesystem::path& outputFile, const std::vector<ColourLayer>& layers,
                       const SampleType* type, const std::string& compression) {
-  const std::string name = outputFile.string();
+  const std::string name = spectral::utf8(outputFile);
   const auto output = outputFor(name);
   const std::string format = output->format_name();
   const auto refuse = [&](const std::string& field, const std::string& value, const std::string& remedy) {
@@ -381,7 +382,7 @@ void AnyPicture::save(const std::filesystem::path& outputFile, int threads) {
 
 void AnyPicture::writeWhole(const std::filesystem::path& outputFile) const {
   spectral::PendingFile pending(outputFile);
-  const std::string name = outputFile.string();
+  const std::string name = spectral::utf8(outputFile);
   const auto output = outputFor(name);
   // OpenImageIO's TIFF reads back what it wrote, which its memory does not do.
   const bool isInMemory = output->supports("ioproxy") && output->format_name() != std::string_view("tiff");
@@ -392,9 +393,9 @@ void AnyPicture::writeWhole(const std::filesystem::path& outputFile) const {
     writeParts(*output, name, name);
     pending.write({reinterpret_cast<const char*>(memory.buffer().data()), memory.buffer().size()});
   } else {
-    writeParts(*output, pending.path().string(), name);
+    writeParts(*output, spectral::utf8(pending.path()), name);
     // Read again, as the library may not say that the disk is full.
-    const auto again = ImageInput::open(pending.path().string());
+    const auto again = ImageInput::open(spectral::utf8(pending.path()));
     std::vector<char> samples(again ? again->spec().image_bytes(true) : 0);
     if (!again || again->spec().width != m_parts[0].after.width ||
         !again->read_image(0, 0, 0, again->spec().nchannels, TypeDesc::UNKNOWN, samples.data())) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apply/sequence.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/platform.h"
 #include "progress.h"
 #include "run.h"
@@ -25,7 +26,7 @@ class FrameReport {
   void done(const Frame& frame, std::size_t count) {
     if (m_hasLines) {
       std::cerr << "lutgen: frame " + std::to_string(frame.number) + " done, " + std::to_string(count) + " of " +
-                       std::to_string(m_count) + ": " + frame.output.string() + "\n"
+                       std::to_string(m_count) + ": " + spectral::utf8(frame.output) + "\n"
                 << std::flush;
     } else if (m_hasShare) {
       m_progress.show(static_cast<double>(count) / static_cast<double>(m_count));

@@ -9,6 +9,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::lutgen {
@@ -55,9 +56,9 @@ std::string FramePattern::file(int frame) const {
 }
 
 std::vector<int> FramePattern::framesThere() const {
-  const std::filesystem::path path(m_name);
-  const std::string folder = path.parent_path().string();
-  const std::size_t nameBegin = m_name.size() - path.filename().string().size();
+  const std::filesystem::path path = spectral::pathOf(m_name);
+  const std::string folder = spectral::utf8(path.parent_path());
+  const std::size_t nameBegin = m_name.size() - spectral::utf8(path.filename()).size();
   if (m_places.size() != 1 || m_places[0].begin < nameBegin) {
     throw InputError(m_name, "frames", "", "cannot be looked up: say which, --frames 1001-1100");
   }
@@ -65,9 +66,9 @@ std::vector<int> FramePattern::framesThere() const {
   const std::string after = m_name.substr(m_places[0].begin + m_places[0].size);
   std::vector<int> frames;
   std::error_code failure;
-  for (std::filesystem::directory_iterator entry(folder.empty() ? "." : folder, failure), end; !failure && entry != end;
-       entry.increment(failure)) {
-    const std::string name = entry->path().filename().string();
+  for (std::filesystem::directory_iterator entry(spectral::pathOf(folder.empty() ? "." : folder), failure), end;
+       !failure && entry != end; entry.increment(failure)) {
+    const std::string name = spectral::utf8(entry->path().filename());
     if (name.size() <= before.size() + after.size() || name.rfind(before, 0) != 0 ||
         name.compare(name.size() - after.size(), after.size(), after) != 0) {
       continue;
@@ -76,7 +77,7 @@ std::vector<int> FramePattern::framesThere() const {
     int frame = 0;
     const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), frame);
     if (error == std::errc() && stop == digits.data() + digits.size() &&
-        std::filesystem::path(file(frame)).filename().string() == name) {
+        spectral::utf8(spectral::pathOf(file(frame)).filename()) == name) {
       frames.push_back(frame);
     }
   }

@@ -3,6 +3,8 @@
 
 #include <set>
 
+#include "metamer/spectral/path_text.h"
+
 namespace metamer::lutgen {
 
 SpaceClues cluesOf(const AnyPicture& picture, const ColourLayer& layer) {
@@ -32,7 +34,7 @@ bool isSrgbFormat(const std::string& format) {
 }
 
 std::string formatOf(const std::filesystem::path& output) {
-  const auto format = OIIO::ImageOutput::create(output.string());
+  const auto format = OIIO::ImageOutput::create(spectral::utf8(output));
   if (!format) {
     OIIO::geterror();  // whoever writes says it; what is not fetched is printed at the end
     return "";

@@ -8,6 +8,7 @@
 #include "apply/picture_clues.h"
 #include "exr/exr_change.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 using spectral::InputError;
 
 bool isExrName(const fs::path& file) {
-  const std::string extension = spectral::lowerCase(file.extension().string());
+  const std::string extension = spectral::lowerCase(spectral::utf8(file.extension()));
   return extension == ".exr" || extension == ".sxr" || extension == ".mxr";
 }
 
@@ -27,15 +28,15 @@ std::string bytesOf(const fs::path& file, std::size_t most) {
   std::error_code failure;
   const fs::file_status status = fs::status(file, failure);
   if (!fs::exists(status)) {
-    throw InputError(file.string(), "", "", "is not there; check the path");
+    throw InputError(spectral::utf8(file), "", "", "is not there; check the path");
   }
   if (!fs::is_regular_file(status)) {
-    throw InputError(file.string(), "", "", "is a folder, pipe or device; name a picture");
+    throw InputError(spectral::utf8(file), "", "", "is a folder, pipe or device; name a picture");
   }
   std::ifstream stream(file, std::ios::binary);
   std::string bytes(std::min<std::uint64_t>(fs::file_size(file, failure), most), '\0');
   if (failure || !stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    throw InputError(file.string(), "", "", "cannot be read; check its permissions");
+    throw InputError(spectral::utf8(file), "", "", "cannot be read; check its permissions");
   }
   return bytes;
 }
@@ -128,22 +129,23 @@ Relighter::Relighter(std::string name, PictureRequest request, const spectral::D
 std::uint64_t Relighter::check(const fs::path& input, const fs::path& output) const {
   const std::string format = formatOf(output);
   if (format.empty()) {
-    throw InputError(output.string(), "format", output.extension().string(),
+    throw InputError(spectral::utf8(output), "format", spectral::utf8(output.extension()),
                      "is not known; write .exr, .tif, .png, .jpg or .dpx");
   }
   checkCompression(m_request.compression, format);
   if (isExr(bytesOf(input, 4)) && isExrName(output)) {
     exrTypeOf(m_request.type);
     const std::string bytes = bytesOf(input, ~std::size_t{0});
-    chooseLayers(factsOf(readExrFile(bytes, input.string(), m_request.mostPixels)), m_request.layers, input.string());
+    chooseLayers(factsOf(readExrFile(bytes, spectral::utf8(input), m_request.mostPixels)), m_request.layers,
+                 spectral::utf8(input));
     return 2 * bytes.size();
   }
   if (format == "openexr") {
     exrTypeOf(m_request.type);
   }
   AnyPicture picture(input, m_request.mostPixels);
-  picture.plan(output, chooseLayers(picture.facts(), m_request.layers, input.string()), m_type ? &*m_type : nullptr,
-               m_request.compression);
+  picture.plan(output, chooseLayers(picture.facts(), m_request.layers, spectral::utf8(input)),
+               m_type ? &*m_type : nullptr, m_request.compression);
   return 3 * picture.bytes();
 }
 
@@ -215,9 +217,9 @@ void Relighter::relight(const fs::path& input, const fs::path& output, int threa
 }
 
 void Relighter::relightExr(const std::string& bytes, const fs::path& input, const fs::path& output, int threads) {
-  const ExrFile file = readExrFile(bytes, input.string(), m_request.mostPixels);
+  const ExrFile file = readExrFile(bytes, spectral::utf8(input), m_request.mostPixels);
   ExrChange change;
-  const std::vector<ColourLayer> layers = chooseLayers(factsOf(file), m_request.layers, input.string());
+  const std::vector<ColourLayer> layers = chooseLayers(factsOf(file), m_request.layers, spectral::utf8(input));
   for (const ColourLayer& layer : layers) {
     change.colours.push_back({layer.part, layer.channels, layer.alpha});
   }
@@ -236,7 +238,7 @@ void Relighter::relightExr(const std::string& bytes, const fs::path& input, cons
 
 void Relighter::relightAny(const fs::path& input, const fs::path& output, int threads) {
   AnyPicture picture(input, m_request.mostPixels);
-  const std::vector<ColourLayer> layers = chooseLayers(picture.facts(), m_request.layers, input.string());
+  const std::vector<ColourLayer> layers = chooseLayers(picture.facts(), m_request.layers, spectral::utf8(input));
   const std::string format = formatOf(output);
   picture.plan(output, layers, m_type ? &*m_type : nullptr, m_request.compression);
   const Spaces spaces = spacesOf(cluesOf(picture, layers[0]), format);

@@ -13,6 +13,7 @@
 
 #include "apply/frames.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 
 namespace metamer::lutgen {
@@ -29,10 +30,10 @@ void refuseUnwritable(const std::vector<Frame>& frames) {
     std::error_code none;
     const fs::file_status status = fs::status(frame.output, none);
     if (fs::exists(status) && !fs::is_regular_file(status)) {
-      throw InputError(frame.output.string(), "output", "", "is a folder, pipe or device; name a file");
+      throw InputError(spectral::utf8(frame.output), "output", "", "is a folder, pipe or device; name a file");
     }
     if (!outputs.insert(frame.output).second) {
-      throw InputError(frame.output.string(), "output", "", "would be written by two frames; check the pattern");
+      throw InputError(spectral::utf8(frame.output), "output", "", "would be written by two frames; check the pattern");
     }
     if (folders.insert(frame.output.parent_path()).second) {
       const spectral::PendingFile probe(frame.output);
@@ -48,11 +49,11 @@ std::vector<Frame> framesOf(const std::string& input, const std::string& output,
   std::error_code none;
   std::vector<Frame> result;
   // A file may bear a # in its name.
-  if (!in || (frames.empty() && fs::is_regular_file(input, none))) {
+  if (!in || (frames.empty() && fs::is_regular_file(spectral::pathOf(input), none))) {
     if (!frames.empty()) {
       throw InputError(input, "frames", frames, "need a place for their number: shot.####.exr or shot.%04d.exr");
     }
-    result.push_back({0, input, output});
+    result.push_back({0, spectral::pathOf(input), spectral::pathOf(output)});
     refuseUnwritable(result);
     return result;
   }
@@ -61,7 +62,7 @@ std::vector<Frame> framesOf(const std::string& input, const std::string& output,
   }
   std::vector<int> missing;
   for (const int frame : frames.empty() ? in->framesThere() : framesFrom(frames)) {
-    result.push_back({frame, in->file(frame), out->file(frame)});
+    result.push_back({frame, spectral::pathOf(in->file(frame)), spectral::pathOf(out->file(frame))});
     if (!fs::exists(result.back().input, none)) {
       missing.push_back(frame);
     }

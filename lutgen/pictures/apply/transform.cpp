@@ -10,6 +10,7 @@
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/sip/homogeneous_map.h"
 #include "metamer/sip/recipe.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 #include "run.h"
@@ -18,7 +19,7 @@ namespace metamer::lutgen {
 namespace {
 
 bool isRecipe(const std::filesystem::path& file) {
-  const std::string extension = spectral::lowerCase(file.extension().string());
+  const std::string extension = spectral::lowerCase(spectral::utf8(file.extension()));
   return extension == ".yaml" || extension == ".yml";
 }
 
@@ -54,8 +55,8 @@ AppliedTransform fromRecipe(const TransformRequest& request, const spectral::Dat
 bool isCertified(const std::string& file) {
   const std::string certificate = file + ".json";
   std::error_code none;
-  return std::filesystem::is_regular_file(certificate, none) &&
-         spectral::readTextFile(certificate).find("\"metamer_certificate\"") != std::string::npos;
+  return std::filesystem::is_regular_file(spectral::pathOf(certificate), none) &&
+         spectral::readTextFile(spectral::pathOf(certificate)).find("\"metamer_certificate\"") != std::string::npos;
 }
 
 AppliedTransform fromLut(const TransformRequest& request, const spectral::DataLibrary& library,
@@ -63,12 +64,13 @@ AppliedTransform fromLut(const TransformRequest& request, const spectral::DataLi
   AppliedTransform result;
   result.name = request.transform;
   result.how = "LUT file";
-  const ocio::PixelProcessor processor = ocio::PixelProcessor::fromFile(request.transform);
+  const ocio::PixelProcessor processor = ocio::PixelProcessor::fromFile(spectral::pathOf(request.transform));
   result.raw = [processor](std::span<float> rgba) { processor.apply(rgba); };
   if (request.overrides.space || isCertified(request.transform)) {
     ocio::LutPixels pixels;
     pixels.space = request.overrides.space.value_or(pixels.space);
-    const ocio::ComparedTransform compared = ocio::comparedFile(request.transform, pixels, library, config);
+    const ocio::ComparedTransform compared =
+        ocio::comparedFile(spectral::pathOf(request.transform), pixels, library, config);
     result.linearSpace = compared.space;
     result.linear = compared.apply;
     result.pixels = PictureSpace{"the LUT's own", compared.space, {}, {}};
@@ -80,7 +82,7 @@ AppliedTransform fromLut(const TransformRequest& request, const spectral::DataLi
 
 AppliedTransform appliedTransform(const TransformRequest& request, const spectral::DataLibrary& library,
                                   const ocio::ConfigSource& config) {
-  if (isRecipe(request.transform)) {
+  if (isRecipe(spectral::pathOf(request.transform))) {
     return fromRecipe(request, library, config);
   }
   if (request.hasRecipeOptions) {

@@ -15,6 +15,7 @@
 #include "metamer/ocio/working_space.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
@@ -42,7 +43,7 @@ struct CompareArguments {
 enum class Kind { Recipe, Look, Picture, File };
 
 std::string extensionOf(const std::string& name) {
-  return spectral::lowerCase(std::filesystem::path(name).extension().string());
+  return spectral::lowerCase(spectral::utf8(spectral::pathOf(name).extension()));
 }
 
 bool isConfig(const std::string& name) {
@@ -106,11 +107,11 @@ std::optional<double> numberOf(const std::string& tolerance) {
 
 /// The certificate of a file or look; empty where it has none.
 std::filesystem::path certificateFileOf(const std::string& name, const std::string& recipeName) {
-  std::filesystem::path file = name + ".json";
+  std::filesystem::path file = spectral::pathOf(name + ".json");
   if (kindOf(name) == Kind::Look) {
     const std::size_t mark = lookMark(name);
-    file =
-        ocio::certificateOfLook(name.substr(0, mark), mark == std::string::npos ? recipeName : name.substr(mark + 1));
+    file = ocio::certificateOfLook(spectral::pathOf(name.substr(0, mark)),
+                                   mark == std::string::npos ? recipeName : name.substr(mark + 1));
   }
   std::error_code none;
   return std::filesystem::is_regular_file(file, none) ? file : std::filesystem::path();
@@ -146,7 +147,7 @@ class Comparer {
         case Kind::File:
           break;
       }
-      return ocio::comparedFile(name, pixels, m_library, m_config);
+      return ocio::comparedFile(spectral::pathOf(name), pixels, m_library, m_config);
     };
     const ocio::ComparedTransform a = transformOf(m_arguments.a, recipeA, recipeB);
     const ocio::ComparedTransform b = transformOf(m_arguments.b, recipeB, recipeA);
@@ -172,8 +173,8 @@ class Comparer {
     if (m_arguments.tolerance == kByCertificate) {
       throw InputError(m_arguments.b, "tolerance", kByCertificate, "is for transforms; give a number");
     }
-    const Picture a(m_arguments.a);
-    const Picture b(m_arguments.b);
+    const Picture a(spectral::pathOf(m_arguments.a));
+    const Picture b(spectral::pathOf(m_arguments.b));
     if (a.width() != b.width() || a.height() != b.height()) {
       throw InputError(m_arguments.b, "size", std::to_string(b.width()) + " x " + std::to_string(b.height()),
                        "is not that of " + m_arguments.a + ", " + std::to_string(a.width()) + " x " +
@@ -220,7 +221,8 @@ class Comparer {
     options.scale = std::max(options.scale, 0.01);
     options.pictureWidth = m_pictureWidth;
     options.title = "CIEDE2000, " + report.nameA + " against " + report.nameB;
-    writeHeatMap(m_arguments.plot, report.comparison, m_space, m_library.observer("CIE 1931 2"), options);
+    writeHeatMap(spectral::pathOf(m_arguments.plot), report.comparison, m_space, m_library.observer("CIE 1931 2"),
+                 options);
   }
 
  private:
@@ -237,7 +239,7 @@ class Comparer {
     report.certificate = ocio::readCertificate(file);
     report.isJudgedByCertificate = !report.tolerance;
     if (kindOf(name) == Kind::File && !report.certificate->sha256.empty() &&
-        ocio::sha256(spectral::readTextFile(name)) != report.certificate->sha256) {
+        ocio::sha256(spectral::readTextFile(spectral::pathOf(name))) != report.certificate->sha256) {
       report.stale.push_back(name + " is not the file that its certificate is for");
     }
     for (const ocio::CertificateChange& change : ocio::staleParts(*report.certificate, recipe, m_library)) {
@@ -246,7 +248,7 @@ class Comparer {
   }
 
   static std::optional<sip::Recipe> recipeOf(const std::string& name) {
-    return kindOf(name) == Kind::Recipe ? std::optional(sip::readRecipe(name)) : std::nullopt;
+    return kindOf(name) == Kind::Recipe ? std::optional(sip::readRecipe(spectral::pathOf(name))) : std::nullopt;
   }
 
   CompareArguments m_arguments;
@@ -273,7 +275,7 @@ void compare(const CompareArguments& arguments) {
   // The places first: what cannot be written is not worth the work.
   const auto json = pendingFor(arguments.json);
   const auto junit = pendingFor(arguments.junit);
-  spectral::requireWritable(arguments.plot);
+  spectral::requireWritable(spectral::pathOf(arguments.plot));
   Comparer comparer(arguments);
   const bool pictures = kindOf(arguments.a) == Kind::Picture && kindOf(arguments.b) == Kind::Picture;
   const CompareReport report = pictures ? comparer.pictures() : comparer.transforms();

@@ -14,7 +14,9 @@
 #include "exr/exr_codec.h"
 #include "exr/exr_reader.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/platform.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -29,7 +31,7 @@ struct Close {
 class Output {
  public:
   Output(const std::filesystem::path& path, std::string name)
-      : m_name(std::move(name)), m_file(std::fopen(path.c_str(), "wb")) {
+      : m_name(std::move(name)), m_file(spectral::openFile(path, "wb")) {
     require(m_file != nullptr);
   }
 
@@ -129,7 +131,7 @@ void inParallel(std::int64_t begin, std::int64_t end, int threads, const std::fu
 void writeExrStrips(const ExrStrips& picture, const std::filesystem::path& file, int threads) {
   spectral::PendingFile pending(file);
   ExrFile whole;
-  whole.name = file.string();
+  whole.name = spectral::utf8(file);
   whole.parts.push_back(partOf(picture));
   const ExrPart& part = whole.parts[0];
   const std::string header = exrHeader(whole);

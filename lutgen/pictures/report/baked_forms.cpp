@@ -8,6 +8,7 @@
 #include "metamer/ocio/bake.h"
 #include "metamer/ocio/compared_transform.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -22,7 +23,8 @@ constexpr std::array<Form, 2> kForms = {{{".ctf (OpenColorIO)", ".ctf", true}, {
 }  // namespace
 
 WorkFolder::WorkFolder()
-    : m_path(std::filesystem::temp_directory_path() / ("lutgen-report-" + std::to_string(std::random_device()()))),
+    : m_path(std::filesystem::temp_directory_path() /
+             spectral::pathOf("lutgen-report-" + std::to_string(std::random_device()()))),
       m_unfinished(std::in_place, m_path) {
   std::filesystem::create_directory(m_path);
 }
@@ -33,7 +35,7 @@ WorkFolder::~WorkFolder() {
 }
 
 std::filesystem::path WorkFolder::place(const std::string& name) const {
-  std::filesystem::path file = m_path / name;
+  std::filesystem::path file = m_path / spectral::pathOf(name);
   m_files.try_emplace(name, file);
   return file;
 }
@@ -43,7 +45,7 @@ std::filesystem::path WorkFolder::write(const std::string& name, std::string_vie
   std::ofstream stream(file, std::ios::binary);
   stream.write(contents.data(), static_cast<std::streamsize>(contents.size()));
   if (!stream.flush()) {
-    throw spectral::InputError(file.string(), "file", "",
+    throw spectral::InputError(spectral::utf8(file), "file", "",
                                "cannot be written; make room for temporary files, or set $TMPDIR");
   }
   return file;
@@ -54,7 +56,7 @@ std::vector<BakedForm> bakedForms(const sip::Recipe& recipe, const spectral::Dat
                                   const std::function<void(double)>& progress) {
   const ocio::ComparedTransform exact = ocio::comparedRecipe(recipe, library, config);
   const std::string file = recipe.where.empty() ? recipe.name : recipe.where;
-  const std::string recipeName = std::filesystem::path(file).filename().string();
+  const std::string recipeName = spectral::utf8(spectral::pathOf(file).filename());
   std::vector<BakedForm> forms;
   for (const Form& form : kForms) {
     const double done = static_cast<double>(forms.size()) / kForms.size();
@@ -65,9 +67,9 @@ std::vector<BakedForm> bakedForms(const sip::Recipe& recipe, const spectral::Dat
     BakedForm baked;
     baked.label = form.label;
     baked.command = "lutgen bake " + recipeName + (form.isFull ? " --certify full -o " : " -o ") +
-                    std::filesystem::path(recipeName).stem().string() + form.extension;
+                    spectral::utf8(spectral::pathOf(recipeName).stem()) + form.extension;
     const std::filesystem::path lut = folder.place(std::string("report") + form.extension);
-    folder.place(lut.filename().string() + ".json");
+    folder.place(spectral::utf8(lut.filename()) + ".json");
     baked.certificate = ocio::bakeFile(recipe, library, lut, {}, options);
     const ocio::ComparedTransform written = ocio::comparedFile(lut, {}, library, config);
     baked.comparison = ocio::compareTransforms(exact, written, ocio::comparisonSpace(exact, written), library);

@@ -7,6 +7,7 @@
 #include "metamer/sip/recipe.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "report/findings.h"
 #include "report/page_parts.h"
 #include "words.h"
@@ -38,7 +39,7 @@ std::string base64(const std::string& bytes) {
 std::string withoutFolder(const std::string& name) {
   return name.find('/') == std::string::npos && name.find('\\') == std::string::npos
              ? name
-             : std::filesystem::path(name).filename().string();
+             : spectral::utf8(spectral::pathOf(name).filename());
 }
 
 std::string lightText(const sip::RecipePipeline& side) {

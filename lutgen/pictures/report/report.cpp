@@ -3,6 +3,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "picture_commands.h"
 #include "progress.h"
@@ -30,14 +31,14 @@ void report(const ReportArguments& arguments) {
   if (!arguments.pictureSpace.empty() && arguments.pictures.empty()) {
     throw CLI::ValidationError("--picture-space", "says what the pixels of --picture are; give one");
   }
-  spectral::PendingFile file(arguments.output);
+  spectral::PendingFile file(spectral::pathOf(arguments.output));
   if (file.isStream()) {
     standardOutput();
   }
   const auto library = spectral::DataLibrary::openDefault();
   const auto config = ocio::ConfigSource::environment();
   PageContents contents;
-  contents.recipe = sip::readRecipe(arguments.recipe);
+  contents.recipe = sip::readRecipe(spectral::pathOf(arguments.recipe));
   const PictureSpace pixels = pictureSpaceNamed(contents.recipe.space, "recipe", library, config);
   const sip::TransformSpec spec = sip::resolve(contents.recipe, library, pixels.linear);
   note(sip::notesOf(contents.recipe, spec));

@@ -13,6 +13,7 @@
 #include "metamer/sip/comparison.h"
 #include "metamer/sip/homogeneous_map.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "report/page_parts.h"
 #include "run.h"
@@ -120,7 +121,7 @@ ShownPicture shownPicture(const fs::path& path, const std::string& file, const s
     shrinker.add(y, row);
   }
   ShownPicture shown;
-  shown.title = fs::path(file).filename().string();
+  shown.title = spectral::utf8(spectral::pathOf(file).filename());
   shown.pixels = from.name;
   shown.width = shrinker.width();
   shown.height = shrinker.height();
@@ -142,7 +143,7 @@ std::string jpegOf(const ShownPicture& picture, const std::vector<float>& linear
   std::string bytes;
   for (const int quality : {88, 75, 60, 40, 20}) {
     pixels.specmod().attribute("Compression", "jpeg:" + std::to_string(quality));
-    if (!pixels.write(file.string(), OIIO::TypeDesc::UINT8, "jpeg")) {
+    if (!pixels.write(spectral::utf8(file), OIIO::TypeDesc::UINT8, "jpeg")) {
       throw InputError(picture.title, "picture of the report", "", "cannot be written: " + pixels.geterror());
     }
     bytes = spectral::readTextFile(file);
@@ -176,7 +177,7 @@ std::vector<ShownPicture> shownPictures(const std::vector<std::string>& files, c
   }
   std::vector<ShownPicture> pictures;
   for (const std::string& file : files) {
-    pictures.push_back(shownPicture(file, file, stated, space, library));
+    pictures.push_back(shownPicture(spectral::pathOf(file), file, stated, space, library));
   }
   return pictures;
 }

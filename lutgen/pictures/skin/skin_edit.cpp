@@ -9,6 +9,7 @@
 #include "metamer/skin/skin_colours.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 #include "run.h"
 #include "skin/skin_commands.h"
@@ -46,7 +47,7 @@ class Editing {
     }
     if (!options.type.empty()) {
       m_type = sampleTypeNamed(options.type);
-    } else if (isSrgbFormat(formatOf(options.output))) {
+    } else if (isSrgbFormat(formatOf(spectral::pathOf(options.output)))) {
       m_type = sampleTypeNamed("uint8");  // no floats there
     }
   }
@@ -54,7 +55,7 @@ class Editing {
   /// Reads the header of the first picture, and makes what all need.
   void begin(const Frame& first) {
     AnyPicture picture(first.input, m_options.mostPixels);
-    const SkinMapsPlace place = findSkinMaps(picture, first.input.string());
+    const SkinMapsPlace place = findSkinMaps(picture, spectral::utf8(first.input));
     m_bytes = 4 * picture.bytes();
     m_from = spaceOf(picture, place, first.input);
     m_capture = captureOf(picture, place);
@@ -73,17 +74,17 @@ class Editing {
 
   void edit(const Frame& frame, int threads) {
     AnyPicture picture(frame.input, m_options.mostPixels);
-    const SkinMapsPlace place = findSkinMaps(picture, frame.input.string());
+    const SkinMapsPlace place = findSkinMaps(picture, spectral::utf8(frame.input));
     const SkinCapture capture = captureOf(picture, place);
     if (spaceOf(picture, place, frame.input).name != m_from->name || capture.text() != m_capture.text()) {
-      throw InputError(frame.input.string(), "capture", capture.text(),
+      throw InputError(spectral::utf8(frame.input), "capture", capture.text(),
                        "is another than that of the frames before; edit it by itself");
     }
     const OIIO::ImageSpec spec = picture.spec(place.part);
     const std::vector<std::string> names = skinMapsHeader(picture, place.part).channels;
     for (const std::string& name : names) {
       if (spec.channelindex(name) >= 0) {
-        throw InputError(frame.input.string(), "channel", name, "is there beside the maps; take it away");
+        throw InputError(spectral::utf8(frame.input), "channel", name, "is there beside the maps; take it away");
       }
     }
     picture.load();
@@ -133,14 +134,14 @@ class Editing {
       clues.chromaticities = xy;
     }
     std::string doubt;
-    const auto said = pictureSpaceOf(clues, file.string(), m_library, doubt);
-    return said ? *said : pictureSpaceNamed("Rec.709", file.string(), m_library, ocio::ConfigSource());
+    const auto said = pictureSpaceOf(clues, spectral::utf8(file), m_library, doubt);
+    return said ? *said : pictureSpaceNamed("Rec.709", spectral::utf8(file), m_library, ocio::ConfigSource());
   }
 
   void describe(AnyPicture& picture, int part) const {
     const PictureSpace& written = m_to ? *m_to : *m_from;
     const bool isSrgb = spectral::lowerCase(written.name) == "srgb";
-    const bool isExr = formatOf(m_options.output) == "openexr";
+    const bool isExr = formatOf(spectral::pathOf(m_options.output)) == "openexr";
     picture.describe(isSrgb               ? "sRGB"
                      : written.isLinear() ? "Linear"
                                           : "",
@@ -166,8 +167,8 @@ class Editing {
 
 void edit(const EditOptions& options, const CLI::App& command) {
   std::vector<SkinStep> steps = skinSteps(command, options.steps);
-  if (formatOf(options.output).empty()) {
-    throw InputError(options.output, "format", fs::path(options.output).extension().string(),
+  if (formatOf(spectral::pathOf(options.output)).empty()) {
+    throw InputError(options.output, "format", spectral::utf8(spectral::pathOf(options.output).extension()),
                      "is not known; write .exr, .tif, .png, .jpg or .dpx");
   }
   const std::vector<Frame> frames = framesOf(options.maps, options.output, options.frames);

@@ -11,6 +11,7 @@
 #include "metamer/skin/skin_network.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "run.h"
 #include "skin/skin_commands.h"
@@ -106,7 +107,7 @@ class Estimation {
     const ColourLayer layer = layerOf(picture, frame.input);
     if (const PictureSpace own = spaceOf(picture, layer, frame.input); own.name != m_space->name) {
       throw InputError(
-          frame.input.string(), "colour space", own.name,
+          spectral::utf8(frame.input), "colour space", own.name,
           "is another than that of the frames before, " + m_space->name + "; state one: --picture-space NAME");
     }
     const std::vector<int> channels(layer.channels.begin(), layer.channels.end());
@@ -138,7 +139,7 @@ class Estimation {
     note({m_notes.begin(), m_notes.end()});
     const double all = static_cast<double>(std::max<std::size_t>(m_findings.pixels, 1));
     if (!m_options.json.empty()) {
-      writeJson(m_options.json, json());
+      writeJson(spectral::pathOf(m_options.json), json());
     }
     summarise(spectral::formatted(
         "%s: %zu %s, %.0f %% of the pixels skin%s, %s, %s", m_options.output.c_str(), frames,
@@ -160,15 +161,16 @@ class Estimation {
 
   ColourLayer layerOf(const AnyPicture& picture, const fs::path& file) const {
     if (hasSkinMaps(picture)) {
-      throw InputError(file.string(), "channels", "skin", "are there already; give the albedo, or edit these maps");
+      throw InputError(spectral::utf8(file), "channels", "skin",
+                       "are there already; give the albedo, or edit these maps");
     }
     LayerRequest request;
     if (!m_options.layer.empty()) {
       request.layers = {m_options.layer};
     }
-    const std::vector<ColourLayer> layers = chooseLayers(picture.facts(), request, file.string());
+    const std::vector<ColourLayer> layers = chooseLayers(picture.facts(), request, spectral::utf8(file));
     if (layers.size() > 1) {
-      throw InputError(file.string(), "layers", "", "are several (views); name one: --layer NAME");
+      throw InputError(spectral::utf8(file), "layers", "", "are several (views); name one: --layer NAME");
     }
     return layers[0];
   }
@@ -179,7 +181,7 @@ class Estimation {
     }
     const SpaceClues clues = cluesOf(picture, layer);
     std::string doubt;
-    const auto said = pictureSpaceOf(clues, file.string(), m_library, doubt);
+    const auto said = pictureSpaceOf(clues, spectral::utf8(file), m_library, doubt);
     if (said) {
       if (!doubt.empty()) {
         addNote(doubt);
@@ -257,12 +259,12 @@ class Estimation {
 };
 
 void estimate(const EstimateOptions& options) {
-  if (formatOf(options.output) != "openexr") {
-    throw InputError(options.output, "format", fs::path(options.output).extension().string(),
+  if (formatOf(spectral::pathOf(options.output)) != "openexr") {
+    throw InputError(options.output, "format", spectral::utf8(spectral::pathOf(options.output).extension()),
                      "holds no maps of skin; write .exr");
   }
   const std::vector<Frame> frames = framesOf(options.albedo, options.output, options.frames);
-  spectral::requireWritable(options.json);
+  spectral::requireWritable(spectral::pathOf(options.json));
   Estimation estimation(options);
   estimation.begin(frames[0].input, skinThreads(options.threads));
   const ThreadShare share = shareThreads(options.threads, frames.size(), estimation.bytes());

@@ -4,6 +4,7 @@
 #include "apply/picture_clues.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "run.h"
 #include "skin/skin_capture.h"
@@ -29,9 +30,9 @@ struct SampleOptions {
 };
 
 void requireFormat(const std::string& file, bool isExrOnly) {
-  const std::string format = file.empty() ? "openexr" : formatOf(file);
+  const std::string format = file.empty() ? "openexr" : formatOf(spectral::pathOf(file));
   if (format.empty() || (isExrOnly && format != "openexr")) {
-    throw InputError(file, "format", std::filesystem::path(file).extension().string(),
+    throw InputError(file, "format", spectral::utf8(spectral::pathOf(file).extension()),
                      isExrOnly ? "holds no spectra; write .exr" : "is not known; write .exr, .tif or .png");
   }
 }
@@ -40,7 +41,7 @@ void sample(const SampleOptions& options) {
   const std::vector<std::string> files = {options.spectra, options.colours, options.picture, options.spectralPicture};
   std::string written;
   for (const std::string& file : files) {
-    spectral::requireWritable(file);
+    spectral::requireWritable(spectral::pathOf(file));
     written += (file.empty() || written.empty() ? "" : ", ") + file;
   }
   if (written.empty()) {
@@ -61,16 +62,16 @@ void sample(const SampleOptions& options) {
                                                 : griddedSkins(colours.prior(), options.grid[0], options.grid[1]);
   const SkinChart chart = skinChart(colours, std::move(skins), columns);
   if (!options.spectra.empty()) {
-    spectral::writeWholeFile(options.spectra, skinSpectraCsv(chart));
+    spectral::writeWholeFile(spectral::pathOf(options.spectra), skinSpectraCsv(chart));
   }
   if (!options.colours.empty()) {
-    spectral::writeWholeFile(options.colours, skinColoursCsv(chart, space.linear));
+    spectral::writeWholeFile(spectral::pathOf(options.colours), skinColoursCsv(chart, space.linear));
   }
   if (!options.picture.empty()) {
-    writeSkinChart(chart, space.linear, options.patch, false, options.picture);
+    writeSkinChart(chart, space.linear, options.patch, false, spectral::pathOf(options.picture));
   }
   if (!options.spectralPicture.empty()) {
-    writeSkinChart(chart, space.linear, options.patch, true, options.spectralPicture);
+    writeSkinChart(chart, space.linear, options.patch, true, spectral::pathOf(options.spectralPicture));
   }
   summarise(spectral::formatted("%s: %zu skins, %s, %s", written.c_str(), chart.skins.size(), capture.text().c_str(),
                                 space.linear.name.c_str()));

@@ -9,6 +9,7 @@
 #include "apply/any_picture.h"
 #include "apply/frames.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::lutgen {
@@ -115,7 +116,7 @@ SkinStep stepOf(const Named& named, const std::string& text) {
 std::pair<std::string, std::string> fileAndChannel(const std::string& name) {
   const std::size_t colon = name.rfind(':');
   std::error_code none;
-  if (colon == std::string::npos || colon == 0 || std::filesystem::exists(name, none)) {
+  if (colon == std::string::npos || colon == 0 || std::filesystem::exists(spectral::pathOf(name), none)) {
     return {name, ""};
   }
   return {name.substr(0, colon), name.substr(colon + 1)};
@@ -180,11 +181,12 @@ std::vector<float> skinPlane(const std::string& name, int width, int height, int
   const auto [text, channel] = fileAndChannel(name);
   const auto pattern = FramePattern::in(text);
   std::error_code none;
-  const std::string file = pattern && !std::filesystem::exists(text, none) ? pattern->file(frame) : text;
-  if (!std::filesystem::exists(file, none)) {
+  const std::string file =
+      pattern && !std::filesystem::exists(spectral::pathOf(text), none) ? pattern->file(frame) : text;
+  if (!std::filesystem::exists(spectral::pathOf(file), none)) {
     throw InputError(file, "", "", "is not there; check the path");
   }
-  AnyPicture picture(file, kMostPixels);
+  AnyPicture picture(spectral::pathOf(file), kMostPixels);
   const OIIO::ImageSpec& spec = picture.spec(0);
   if (spec.width != width || spec.height * spec.depth != height || spec.deep) {
     throw InputError(file, "size", std::to_string(spec.width) + " x " + std::to_string(spec.height),

@@ -6,6 +6,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/png_check.h"
 #include "picture.h"
 
@@ -21,22 +22,22 @@ constexpr int kRowsAtOnce = 64;
 EnvironmentPicture::EnvironmentPicture(std::filesystem::path file) : m_file(std::move(file)) {
   std::error_code ignored;
   if (!std::filesystem::exists(m_file, ignored)) {
-    throw InputError(m_file.string(), "", "", "is not there; check the path");
+    throw InputError(spectral::utf8(m_file), "", "", "is not there; check the path");
   }
-  spectral::refuseBrokenPng(m_file.string());
-  m_input = OIIO::ImageInput::open(m_file.string());
+  spectral::refuseBrokenPng(spectral::utf8(m_file));
+  m_input = OIIO::ImageInput::open(spectral::utf8(m_file));
   if (!m_input) {
-    throw InputError(m_file.string(), "", "", "cannot be read: " + spectral::pictureReason(OIIO::geterror()));
+    throw InputError(spectral::utf8(m_file), "", "", "cannot be read: " + spectral::pictureReason(OIIO::geterror()));
   }
   const OIIO::ImageSpec& spec = m_input->spec();
-  m_colours = colourChannels(spec, m_file.string());
+  m_colours = colourChannels(spec, spectral::utf8(m_file));
   m_layout = {spec.width, spec.height};
   if (spec.width != 2 * spec.height) {
-    throw InputError(m_file.string(), "size", std::to_string(spec.width) + " x " + std::to_string(spec.height),
+    throw InputError(spectral::utf8(m_file), "size", std::to_string(spec.width) + " x " + std::to_string(spec.height),
                      "must be twice as wide as high; give a whole lat-long environment");
   }
   if (spec.tile_width > 0) {
-    m_tiles = std::make_unique<OIIO::ImageBuf>(m_file.string());
+    m_tiles = std::make_unique<OIIO::ImageBuf>(spectral::utf8(m_file));
   }
 }
 
@@ -51,7 +52,7 @@ void EnvironmentPicture::read(int first, int count, Eigen::Matrix3Xf& rgb) {
                               : m_input->read_scanlines(0, 0, top, top + count, 0, 0, spec.nchannels,
                                                         OIIO::TypeDesc::FLOAT, m_buffer.data());
   if (!isRead) {
-    throw InputError(m_file.string(), "rows", std::to_string(first),
+    throw InputError(spectral::utf8(m_file), "rows", std::to_string(first),
                      "cannot be read: " + spectral::pictureReason(m_tiles ? m_tiles->geterror() : m_input->geterror()));
   }
   rgb.resize(3, static_cast<Eigen::Index>(pixels));

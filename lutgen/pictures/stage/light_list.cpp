@@ -9,6 +9,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
@@ -78,7 +79,7 @@ std::vector<PositionedLight> parseLights(const std::string& text, const std::str
 }
 
 LightList::LightList(const std::filesystem::path& file, stage::LatLong layout)
-    : m_layout(layout), m_lights(parseLights(spectral::readTextFile(file), file.string())) {
+    : m_layout(layout), m_lights(parseLights(spectral::readTextFile(file), spectral::utf8(file))) {
   m_side = std::max(1, m_layout.width / kMostCellsAcross);
   m_cells = {(m_layout.width + m_side - 1) / m_side, (m_layout.height + m_side - 1) / m_side};
   m_sums = Eigen::Matrix4Xd::Zero(4, static_cast<Eigen::Index>(m_cells.width) * m_cells.height);

@@ -11,6 +11,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/stage/environment_drive.h"
 #include "metamer/stage/patch_names.h"
@@ -85,13 +86,13 @@ Stage readStageCharts(const EnvironmentOptions& options, const spectral::DataLib
   std::vector<stage::ChartTable> tables;
   Stage stage;
   for (const std::string& file : options.emitterCharts) {
-    tables.push_back(reader.read({file, {}}, notes));
-    stage.names.push_back(std::filesystem::path(file).stem().string());
+    tables.push_back(reader.read({spectral::pathOf(file), {}}, notes));
+    stage.names.push_back(spectral::utf8(spectral::pathOf(file).stem()));
   }
   std::vector<SceneChartName> scenes;
   for (const std::string& text : options.sceneCharts) {
     scenes.push_back(sceneChartName(text));
-    tables.push_back(reader.read({scenes.back().file, {}}, notes));
+    tables.push_back(reader.read({spectral::pathOf(scenes.back().file), {}}, notes));
   }
   const auto aligned = stage::alignCharts(tables, std::nullopt);
   stage.excluded = aligned.excluded;
@@ -146,9 +147,9 @@ void drive(const EnvironmentOptions& options) {
   if (options.output.empty() && options.lightsOutput.empty()) {
     throw CLI::ValidationError("-o", "or --lights-output is needed");
   }
-  spectral::requireWritable(options.lightsOutput);
+  spectral::requireWritable(spectral::pathOf(options.lightsOutput));
   const Stage stage = readStageCharts(options, library);
-  EnvironmentPicture environment(options.environment);
+  EnvironmentPicture environment(spectral::pathOf(options.environment));
   const stage::LatLong layout = environment.layout();
   std::unique_ptr<LightList> lights;
   if (!options.lights.empty()) {
@@ -183,7 +184,7 @@ void drive(const EnvironmentOptions& options) {
     output->close();
   }
   if (lights) {
-    spectral::writeWholeFile(options.lightsOutput, lights->drivesAsCsv(*stage.driver, stage.names));
+    spectral::writeWholeFile(spectral::pathOf(options.lightsOutput), lights->drivesAsCsv(*stage.driver, stage.names));
   }
   for (const stage::ExcludedPatch& patch : stage.excluded) {
     std::cout << "excluded: " << patch.name << ": " << patch.reason << '\n';

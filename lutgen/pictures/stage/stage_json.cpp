@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 
 namespace metamer::lutgen {
@@ -31,7 +32,7 @@ std::string relativeTo(const std::filesystem::path& report, const std::filesyste
   if (file.empty()) {
     return {};
   }
-  return std::filesystem::proximate(file, std::filesystem::absolute(report).parent_path()).generic_string();
+  return spectral::utf8(std::filesystem::proximate(file, std::filesystem::absolute(report).parent_path()));
 }
 
 void writeJson(const std::filesystem::path& file, const Json& json) {

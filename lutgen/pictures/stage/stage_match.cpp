@@ -6,6 +6,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/stage/capture_faults.h"
 #include "metamer/stage/skin_priority.h"
@@ -143,10 +144,10 @@ MatchAnswer matchCharts(const MatchOptions& options, const spectral::DataLibrary
   std::vector<stage::ChartTable> charts;
   std::vector<std::string> emitters;
   for (const std::string& file : options.charts) {
-    charts.push_back(reader.read({file, {}}, notes));
-    emitters.push_back(std::filesystem::path(file).stem().string());
+    charts.push_back(reader.read({spectral::pathOf(file), {}}, notes));
+    emitters.push_back(spectral::utf8(spectral::pathOf(file).stem()));
   }
-  const stage::ChartTable target = reader.read({options.targets.front(), {}}, notes);
+  const stage::ChartTable target = reader.read({spectral::pathOf(options.targets.front()), {}}, notes);
   std::vector<stage::ChartTable> all = charts;
   all.push_back(target);
   judgeCharts(options, all, library, notes);
@@ -211,7 +212,7 @@ std::vector<MatchAnswer> answersOf(const MatchOptions& options, const spectral::
 
 void match(const MatchOptions& options) {
   for (const std::string& file : {options.output, options.report, options.figure}) {
-    spectral::requireWritable(file);
+    spectral::requireWritable(spectral::pathOf(file));
   }
   const auto library = spectral::DataLibrary::openDefault();
   const std::vector<MatchAnswer> answers = answersOf(options, library);
@@ -220,14 +221,15 @@ void match(const MatchOptions& options) {
     if (isList) {
       throw InputError("--figure", "matches", std::to_string(answers.size()), "are too many for a figure; match one");
     }
-    writeFigure(answers.front().outcome, library, options.figure);
+    writeFigure(answers.front().outcome, library, spectral::pathOf(options.figure));
   }
   if (!options.report.empty()) {
-    spectral::writeWholeFile(
-        options.report,
-        isList ? reportOf(answers) : reportOf(answers.front(), relativeTo(options.report, options.figure)));
+    spectral::writeWholeFile(spectral::pathOf(options.report),
+                             isList ? reportOf(answers)
+                                    : reportOf(answers.front(), relativeTo(spectral::pathOf(options.report),
+                                                                           spectral::pathOf(options.figure))));
   }
-  writeJson(options.output, isList ? toJson(answers) : toJson(answers.front()));
+  writeJson(spectral::pathOf(options.output), isList ? toJson(answers) : toJson(answers.front()));
   std::cout << (isList ? summaryOf(answers) : summaryOf(answers.front()));
 }
 

@@ -7,6 +7,7 @@
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/message_line.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "progress.h"
 #include "run.h"
@@ -79,7 +80,9 @@ WallRaster rasterOf(const PatternOptions& options) {
 class PictureNames {
  public:
   PictureNames(const PatternOptions& options, const std::vector<WallPattern>& patterns)
-      : m_place(options.pictures), m_frames(FramePattern::in(options.pictures)), m_first(options.firstFrame) {
+      : m_place(spectral::pathOf(options.pictures)),
+        m_frames(FramePattern::in(options.pictures)),
+        m_first(options.firstFrame) {
     for (const WallPattern& pattern : patterns) {
       m_patterns.push_back(pattern.name);
     }
@@ -87,16 +90,17 @@ class PictureNames {
 
   std::filesystem::path file(std::size_t index) const {
     if (m_frames) {
-      return m_frames->file(m_first + static_cast<int>(index));
+      return spectral::pathOf(m_frames->file(m_first + static_cast<int>(index)));
     }
-    return m_place.parent_path() / (m_place.stem().string() + "_" + m_patterns[index] + m_place.extension().string());
+    return m_place.parent_path() / spectral::pathOf(spectral::utf8(m_place.stem()) + "_" + m_patterns[index] +
+                                                    spectral::utf8(m_place.extension()));
   }
 
   /// For a comment of the stage file: one line whatever the name holds.
   std::string shown(const std::string& pattern) const {
     for (std::size_t i = 0; i < m_patterns.size(); ++i) {
       if (m_patterns[i] == pattern) {
-        return spectral::messageLine(file(i).filename().string(), spectral::kLongestMessage);
+        return spectral::messageLine(spectral::utf8(file(i).filename()), spectral::kLongestMessage);
       }
     }
     return pattern;
@@ -110,13 +114,13 @@ class PictureNames {
 };
 
 void writePatterns(const PatternOptions& options) {
-  const SampleType type = patternType(options.pictures, options.type);
+  const SampleType type = patternType(spectral::pathOf(options.pictures), options.type);
   const WallRaster raster = rasterOf(options);
   StageSkeleton skeleton;
   skeleton.ramp = rampDrives(options.steps, type);
   const std::vector<WallPattern> patterns = wallPatterns(skeleton.ramp);
   const PictureNames names(options, patterns);
-  spectral::requireWritable(options.stage);
+  spectral::requireWritable(spectral::pathOf(options.stage));
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     spectral::requireWritable(names.file(i));
   }
@@ -130,7 +134,7 @@ void writePatterns(const PatternOptions& options) {
     writePattern(patterns[i], raster, type, names.file(i));
     progress.show(static_cast<double>(i + 1) / static_cast<double>(patterns.size()));
   }
-  spectral::writeWholeFile(options.stage, skeletonText(skeleton));
+  spectral::writeWholeFile(spectral::pathOf(options.stage), skeletonText(skeleton));
   summarise(spectral::formatted("%zu pictures of %d x %d, square of %d x %d (%g m x %g m), %d steps a channel",
                                 patterns.size(), raster.width, raster.height, raster.squareWidth, raster.squareHeight,
                                 skeleton.squareWidthM, skeleton.squareHeightM, options.steps));

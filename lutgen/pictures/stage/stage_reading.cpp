@@ -2,6 +2,7 @@
 #include "stage/stage_reading.h"
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "stage/chart_picture.h"
 #include "stage/environment_picture.h"
@@ -20,7 +21,7 @@ stage::StageReadings readFiles(const stage::StageDescription& stage, const spect
   }
   const ChartReader reader(stage.layout, library, stage.folder, stage.saturation);
   const auto checkPicture = [&](const std::string& name) {
-    return checkPictures.empty() ? std::filesystem::path() : std::filesystem::path(checkPictures + "_" + name + ".png");
+    return checkPictures.empty() ? std::filesystem::path() : spectral::pathOf(checkPictures + "_" + name + ".png");
   };
   for (std::size_t k = 0; k < 3; ++k) {
     readings.charts[k] = reader.read(stage.charts[k], readings.notes, checkPicture(kChannels[k]));
@@ -36,7 +37,7 @@ std::optional<std::array<stage::PanelEotf, 3>> fitRamps(const stage::StageDescri
   std::array<stage::PanelEotf, 3> eotf;
   for (std::size_t k = 0; k < 3; ++k) {
     const stage::StageRamp& ramp = stage.ramps[k];
-    const std::string file = ramp.series ? stage.where + ": ramps." + kChannels[k] : ramp.file.string();
+    const std::string file = ramp.series ? stage.where + ": ramps." + kChannels[k] : spectral::utf8(ramp.file);
     const stage::DriveSeries series =
         ramp.series ? *ramp.series : stage::parseDriveSeries(spectral::readTextFile(ramp.file), file);
     try {

@@ -6,6 +6,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/stage/emitter_model.h"
@@ -43,8 +44,8 @@ Eigen::Vector2d cornerOf(const std::string& text) {
 }
 
 void sample(const SampleOptions& options) {
-  spectral::requireWritable(options.output);
-  spectral::requireWritable(options.checkPicture);
+  spectral::requireWritable(spectral::pathOf(options.output));
+  spectral::requireWritable(spectral::pathOf(options.checkPicture));
   const auto library = spectral::DataLibrary::openDefault();
   stage::StageLayout layout;
   layout.columns = options.columns;
@@ -52,12 +53,12 @@ void sample(const SampleOptions& options) {
   layout.reflectances = options.reflectances;
   const ChartReader reader(layout, library, {},
                            options.saturation > 0 ? std::optional<double>(options.saturation) : std::nullopt);
-  stage::StageChart chart{options.picture, {}};
+  stage::StageChart chart{spectral::pathOf(options.picture), {}};
   for (const std::string& text : options.corners) {
     chart.corners.push_back(cornerOf(text));
   }
   std::vector<std::string> notes;
-  const stage::ChartTable table = reader.read(chart, notes, options.checkPicture);
+  const stage::ChartTable table = reader.read(chart, notes, spectral::pathOf(options.checkPicture));
   std::string text = "patch,R,G,B\n";
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     const auto rgb = table.rgb.col(static_cast<Eigen::Index>(i));
@@ -67,26 +68,26 @@ void sample(const SampleOptions& options) {
     }
     text += "\n";
   }
-  spectral::writeWholeFile(options.output, text);
+  spectral::writeWholeFile(spectral::pathOf(options.output), text);
   for (const std::string& note : notes) {
     std::cout << "note: " << note << '\n';
   }
 }
 
 void linearity(const std::string& file, double tolerance, const std::string& output) {
-  spectral::requireWritable(output);
-  const stage::DriveSeries series = stage::parseDriveSeries(spectral::readTextFile(file), file);
+  spectral::requireWritable(spectral::pathOf(output));
+  const stage::DriveSeries series = stage::parseDriveSeries(spectral::readTextFile(spectral::pathOf(file)), file);
   const stage::PanelLinearity judged = stage::judgeLinearity(series);
   const bool isLinear = judged.deviation <= tolerance;
   if (!output.empty()) {
-    writeJson(output, {{"linear", isLinear},
-                       {"gain", judged.gain},
-                       {"black", judged.black},
-                       {"exponent", judged.exponent},
-                       {"deviation", judged.deviation},
-                       {"worst_drive", judged.worstDrive},
-                       {"hue_drift_degrees", judged.hueDrift},
-                       {"tolerance", tolerance}});
+    writeJson(spectral::pathOf(output), {{"linear", isLinear},
+                                         {"gain", judged.gain},
+                                         {"black", judged.black},
+                                         {"exponent", judged.exponent},
+                                         {"deviation", judged.deviation},
+                                         {"worst_drive", judged.worstDrive},
+                                         {"hue_drift_degrees", judged.hueDrift},
+                                         {"tolerance", tolerance}});
   }
   std::cout << spectral::formatted(
       "%s: farthest from a straight line by %.2f %% of full, at drive %g; exponent %.3f, black %.4g, "
@@ -112,7 +113,7 @@ void emitter(const std::string& model, const std::string& output) {
   for (std::size_t i = 0; i < found->spectrum.values().size(); ++i) {
     text += spectral::formatted("%g,%.9g\n", found->spectrum.wavelengthsNm()[i], found->spectrum.values()[i]);
   }
-  spectral::writeWholeFile(output, text);
+  spectral::writeWholeFile(spectral::pathOf(output), text);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
 #include "metamer/stage/chart_difference.h"
@@ -152,7 +153,7 @@ std::vector<spectral::DomainSamples> samplesOf(const std::vector<spectral::Spect
 }
 
 void select(const SelectOptions& options) {
-  spectral::requireWritable(options.output);
+  spectral::requireWritable(spectral::pathOf(options.output));
   const auto library = spectral::DataLibrary::openDefault();
   const stage::Fixture fixture = stage::readFixture(options.emitters, library);
   const std::vector<Target> targets = targetsOf(options, library);
@@ -244,7 +245,7 @@ void select(const SelectOptions& options) {
   }
   json["virtual_skin"] = {{"count", skins.size()}, {"weight", skinWeight}};
   json["notes"] = fixture.notes;
-  writeJson(options.output, json);
+  writeJson(spectral::pathOf(options.output), json);
 }
 
 }  // namespace

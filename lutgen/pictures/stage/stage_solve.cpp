@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "metamer/ocio/stage_config.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "stage/chart_figure.h"
 #include "stage/fixture_options.h"
@@ -60,7 +61,8 @@ void writeFigure(const stage::StageResult& result, const spectral::DataLibrary& 
       {{result.capture.wall.target, result.exposure * result.solution.predicted},
        {result.capture.wall.target, result.solution.corrected}},
       result.capture.columns,
-      displayFromCamera(result.capture.xyzFromCamera, result.whiteRgb, display.rgbFromXyz(), display.whiteXyz()), file);
+      displayFromCamera(result.capture.xyzFromCamera, result.whiteRgb, display.rgbFromXyz(), display.whiteXyz()),
+      spectral::pathOf(file));
 }
 
 void solve(const SolveOptions& options) {
@@ -68,30 +70,31 @@ void solve(const SolveOptions& options) {
   for (const std::string& file : {options.output, options.report, options.figure, options.config,
                                   options.luts.empty() ? "" : options.luts + "_in_frustum.clf",
                                   options.checkPictures.empty() ? "" : options.checkPictures + "_target.png"}) {
-    spectral::requireWritable(file);
+    spectral::requireWritable(spectral::pathOf(file));
   }
   const auto library = spectral::DataLibrary::openDefault();
-  stage::StageDescription description = stage::readStage(options.stage);
+  stage::StageDescription description = stage::readStage(spectral::pathOf(options.stage));
   if (!options.priority.empty()) {
     description.skinPriority = stage::skinWeightFrom(options.priority);
   }
   const stage::StageResult result =
       stage::solveStage(description, readCapture(description, library, options.checkPictures), options.choices);
   if (!options.config.empty()) {
-    spectral::writeWholeFile(options.config,
-                             ocio::stageConfigText(matricesOf(result), library, options.config, options.base));
+    spectral::writeWholeFile(spectral::pathOf(options.config),
+                             ocio::stageConfigText(matricesOf(result), library, spectral::pathOf(options.config),
+                                                   spectral::pathOf(options.base)));
   }
   if (!options.luts.empty()) {
-    ocio::writeStageFiles(matricesOf(result), options.luts);
+    ocio::writeStageFiles(matricesOf(result), spectral::pathOf(options.luts));
   }
   if (!options.figure.empty()) {
     writeFigure(result, library, options.figure);
   }
   if (!options.report.empty()) {
-    const std::string figure = relativeTo(options.report, options.figure);
-    spectral::writeWholeFile(options.report, reportOf(result, figure));
+    const std::string figure = relativeTo(spectral::pathOf(options.report), spectral::pathOf(options.figure));
+    spectral::writeWholeFile(spectral::pathOf(options.report), reportOf(result, figure));
   }
-  writeJson(options.output, toJson(result));
+  writeJson(spectral::pathOf(options.output), toJson(result));
   std::cout << summaryOf(result);
 }
 

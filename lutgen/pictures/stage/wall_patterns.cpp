@@ -9,6 +9,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 #include "picture.h"
 
@@ -100,7 +101,7 @@ std::vector<WallPattern> wallPatterns(const std::vector<double>& ramp) {
 }
 
 SampleType patternType(const std::filesystem::path& file, const std::string& asked) {
-  const std::string extension = spectral::lowerCase(file.extension().string());
+  const std::string extension = spectral::lowerCase(spectral::utf8(file.extension()));
   for (const PatternFormat& format : patternFormats()) {
     if (extension != format.extensions[0] && extension != format.extensions[1]) {
       continue;
@@ -136,7 +137,7 @@ void writePattern(const WallPattern& pattern, const WallRaster& raster, const Sa
                                        storedValue(pattern.drive[2], type)};
   if (!OIIO::ImageBufAlgo::fill(pixels, OIIO::cspan<float>(black), all) ||
       !OIIO::ImageBufAlgo::fill(pixels, OIIO::cspan<float>(values), lit)) {
-    throw InputError(file.string(), "pattern", pattern.name, "cannot be made: " + pixels.geterror());
+    throw InputError(spectral::utf8(file), "pattern", pattern.name, "cannot be made: " + pixels.geterror());
   }
   writePixels(pixels, file, type.type, "pattern");
 }

@@ -14,6 +14,7 @@
 #include "metamer/sip/scene_uplift.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/text.h"
 #include "picture_commands.h"
@@ -90,7 +91,7 @@ ExrBox boxOf(int x, int y, int width, int height) {
 }
 
 Source sourceOf(const UpliftOptions& options, const spectral::DataLibrary& library) {
-  AnyPicture picture(options.picture, options.mostPixels);
+  AnyPicture picture(spectral::pathOf(options.picture), options.mostPixels);
   LayerRequest request;
   if (!options.layer.empty()) {
     request.layers = {options.layer};
@@ -209,8 +210,8 @@ std::vector<std::string> notesOf(const SpectralRows::Unphysical& found, std::siz
 }
 
 void uplift(const UpliftOptions& options) {
-  if (formatOf(options.output) != "openexr") {
-    throw InputError(options.output, "format", fs::path(options.output).extension().string(),
+  if (formatOf(spectral::pathOf(options.output)) != "openexr") {
+    throw InputError(options.output, "format", spectral::utf8(spectral::pathOf(options.output).extension()),
                      "holds no spectra; write .exr");
   }
   const std::vector<int> wavelengths = wavelengthsFrom(options.wavelengths);
@@ -244,7 +245,7 @@ void uplift(const UpliftOptions& options) {
     strips.channels.push_back({name, type});
   }
   strips.fill = [&](const ExrRectangle& rows, char* samples) { picture.fill(rows, samples); };
-  writeExrStrips(strips, options.output, options.threads);
+  writeExrStrips(strips, spectral::pathOf(options.output), options.threads);
 
   note(notesOf(picture.unphysical(), source.rgb.size() / 3, options.output));
   summarise(spectral::formatted("%s: %d x %d, %zu wavelengths from %d to %d nm, %s, %s", options.output.c_str(),

@@ -12,6 +12,7 @@
 #include "bake/ladder.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 #include "operators/parallel.h"
@@ -219,7 +220,7 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   spectral::PendingFile lut(file);
   std::optional<spectral::PendingFile> json;
   if (!lut.isStream()) {
-    json.emplace(file.string() + ".json");
+    json.emplace(spectral::pathOf(spectral::utf8(file) + ".json"));
   }
 
   Baking baking(recipe, library, format, options);
@@ -232,7 +233,7 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   certificate.sha256 = sha256(text);
   baking.certify(PixelProcessor::fromFile(lut.path()));
   if (options.tolerance && certificate.error.p99 > 1.01 * *options.tolerance) {
-    throw InputError(file.string(), "tolerance", std::to_string(*options.tolerance),
+    throw InputError(spectral::utf8(file), "tolerance", std::to_string(*options.tolerance),
                      "is lost in the digits of " + format.name + "; name a format that keeps more");
   }
   if (json) {
@@ -257,11 +258,11 @@ std::string convertedLuts(const std::vector<std::filesystem::path>& luts, const 
     // Read once for its own error; then as one of the group.
     PixelProcessor::fromFile(lut);
     auto transform = OCIO::FileTransform::Create();
-    transform->setSrc(std::filesystem::absolute(lut).string().c_str());
+    transform->setSrc(spectral::utf8(std::filesystem::absolute(lut)).c_str());
     transform->setInterpolation(OCIO::INTERP_BEST);
     group->appendTransform(transform);
-    description.name += (description.name.empty() ? "" : " + ") + lut.filename().string();
-    description.lines.push_back(lut.filename().string() + " sha256 " + sha256(spectral::readTextFile(lut)));
+    description.name += (description.name.empty() ? "" : " + ") + spectral::utf8(lut.filename());
+    description.lines.push_back(spectral::utf8(lut.filename()) + " sha256 " + sha256(spectral::readTextFile(lut)));
   }
   const auto resolved = OCIO::Config::CreateRaw()->getProcessor(group)->createGroupTransform();
   description.id = "metamer-" + sha256(description.name).substr(0, 16);

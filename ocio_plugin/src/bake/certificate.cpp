@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "metamer/ocio/exposure_invariant_chain.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 
 namespace metamer::ocio {
@@ -34,8 +35,8 @@ double significant(double value) {
 
 /// A path as the user gave it, but for a folder of this machine.
 std::string portable(const std::string& name) {
-  const std::filesystem::path path(name);
-  return path.is_absolute() ? path.filename().string() : name;
+  const std::filesystem::path path = spectral::pathOf(name);
+  return path.is_absolute() ? spectral::utf8(path.filename()) : name;
 }
 
 Json pipelineJson(const sip::RecipePipeline& pipeline) {
@@ -338,7 +339,7 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
   const auto add = [&](std::string role, const std::string& group, const std::string& name) {
     spectral::Provenance provenance = library.provenance(group, name);
     if (!provenance.file.empty() && provenance.sha256.empty()) {
-      provenance.sha256 = sha256(spectral::readTextFile(recipe.folder / provenance.file));
+      provenance.sha256 = sha256(spectral::readTextFile(recipe.folder / spectral::pathOf(provenance.file)));
     }
     inputs.push_back({std::move(role), std::move(provenance)});
   };

@@ -9,6 +9,7 @@
 #include "compare/certificate_parts.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/message_line.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
@@ -155,7 +156,7 @@ CertificateRecord certificateFrom(const std::string& text, const std::string& wh
 }
 
 CertificateRecord readCertificate(const std::filesystem::path& file) {
-  return certificateFrom(spectral::readTextFile(file), file.string());
+  return certificateFrom(spectral::readTextFile(file), spectral::utf8(file));
 }
 
 std::vector<CertificateChange> changesBetween(const CertificateRecord& before, const CertificateRecord& after) {

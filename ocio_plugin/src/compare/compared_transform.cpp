@@ -15,6 +15,7 @@
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/missing_file_error.h"
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 #include "operators/interchange.h"
@@ -28,7 +29,7 @@ using spectral::InputError;
 using PixelFunction = std::function<void(std::span<float> rgba)>;
 
 bool holdsSignal(const std::filesystem::path& file) {
-  const std::string extension = spectral::lowerCase(file.extension().string());
+  const std::string extension = spectral::lowerCase(spectral::utf8(file.extension()));
   return extension != ".ctf" && extension != ".clf";
 }
 
@@ -53,7 +54,7 @@ struct CertifiedPixels {
 };
 
 std::optional<CertifiedPixels> certifiedPixels(const std::filesystem::path& file) {
-  const std::filesystem::path certificate = file.string() + ".json";
+  const std::filesystem::path certificate = spectral::pathOf(spectral::utf8(file) + ".json");
   std::error_code none;
   if (!std::filesystem::is_regular_file(certificate, none)) {
     return std::nullopt;
@@ -73,7 +74,7 @@ std::optional<CertifiedPixels> certifiedPixels(const std::filesystem::path& file
     pixels.probes.largestComponent = range.value("largest_component", pixels.probes.largestComponent);
     return pixels;
   } catch (const nlohmann::json::exception& error) {
-    throw InputError(certificate.string(), "certificate", "",
+    throw InputError(spectral::utf8(certificate), "certificate", "",
                      std::string("is not one of metamer's, bake the file again or take it away: ") + error.what());
   }
 }
@@ -97,7 +98,7 @@ ComparedTransform comparedFile(const std::filesystem::path& file, const LutPixel
                                const spectral::DataLibrary& library, const ConfigSource& config) {
   ComparedTransform result;
   result.kind = "LUT file";
-  result.name = file.string();
+  result.name = spectral::utf8(file);
   const PixelProcessor processor = PixelProcessor::fromFile(file);
   const auto certified = certifiedPixels(file);
   const bool isSignal = holdsSignal(file);

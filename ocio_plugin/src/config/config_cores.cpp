@@ -16,6 +16,7 @@
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
 #include "operators/interchange.h"
@@ -241,7 +242,7 @@ std::vector<ConfigCore> coresOf(const std::vector<sip::Recipe>& recipes, const C
     common.space = place.linearSpace;
     common.name = "core";
     common.adaptation = 0.0;
-    const std::string key = common.folder.string() + "\n" + sip::toYaml(common);
+    const std::string key = spectral::utf8(common.folder) + "\n" + sip::toYaml(common);
     const auto [found, isNew] = coreOf.emplace(key, cores.size());
     if (isNew) {
       cores.push_back({"", recipe, place.processSpace, place.linearFromProcess, {}});
@@ -292,7 +293,7 @@ Certificate certificateOf(const ConfigCore& core, const CoreUse& use, const Bake
   OCIO::ConstTransformRcPtr transform = baked.group;
   if (!lutFile.empty()) {
     auto file = OCIO::FileTransform::Create();
-    file->setSrc(std::filesystem::absolute(lutFile).string().c_str());
+    file->setSrc(spectral::utf8(std::filesystem::absolute(lutFile)).c_str());
     file->setInterpolation(OCIO::INTERP_TETRAHEDRAL);
     transform = file;
   }

@@ -8,6 +8,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
+#include "metamer/spectral/path_text.h"
 
 namespace metamer::ocio {
 
@@ -27,7 +28,7 @@ bool isKnown(const ConfigFacts& facts) {
 OCIO::ConfigRcPtr loaded(const std::string& text, const std::filesystem::path& folder) {
   std::istringstream stream(text);
   OCIO::ConfigRcPtr config = OCIO::Config::CreateFromStream(stream)->createEditableCopy();
-  config->setWorkingDir(folder.string().c_str());
+  config->setWorkingDir(spectral::utf8(folder).c_str());
   return config;
 }
 

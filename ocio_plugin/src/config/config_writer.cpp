@@ -21,6 +21,7 @@
 #include "metamer/ocio/log_cube.h"
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
@@ -41,7 +42,7 @@ class LutFolder {
     }
     m_isNew = fs::create_directory(m_path, failure);
     if (failure || !fs::is_directory(m_path, failure)) {
-      throw InputError(m_path.string(), "LUT folder", "",
+      throw InputError(spectral::utf8(m_path), "LUT folder", "",
                        "cannot be made; choose a folder that is there and writable for the config");
     }
   }
@@ -123,7 +124,7 @@ void refuseForeign(const fs::path& file, const std::string& mark) {
   std::string head(512, '\0');
   stream.read(head.data(), static_cast<std::streamsize>(head.size()));
   if (stream.gcount() > 0 && head.find(mark) == std::string::npos) {
-    throw InputError(file.string(), "output", "", "is there and not metamer's; name another --lut-folder");
+    throw InputError(spectral::utf8(file), "output", "", "is there and not metamer's; name another --lut-folder");
   }
 }
 
@@ -137,8 +138,9 @@ std::string familyOf(const sip::Recipe& recipe, const std::string& family, char 
   };
   std::string kind = "Scene";
   if (spectral::lowerCase(recipe.input.illuminant) != spectral::lowerCase(recipe.output.illuminant)) {
-    const fs::path light(recipe.input.illuminant);
-    kind = std::string("Light") + separator + (light.is_absolute() ? light.stem().string() : light.string());
+    const fs::path light = spectral::pathOf(recipe.input.illuminant);
+    kind =
+        std::string("Light") + separator + (light.is_absolute() ? spectral::utf8(light.stem()) : spectral::utf8(light));
   } else if (filters(recipe.input) != filters(recipe.output)) {
     kind = "Filter";
   } else if (spectral::lowerCase(recipe.input.observer) != spectral::lowerCase(recipe.output.observer)) {
@@ -148,7 +150,9 @@ std::string familyOf(const sip::Recipe& recipe, const std::string& family, char 
 }
 
 std::string lightOf(const sip::RecipePipeline& pipeline) {
-  const auto name = [](const std::string& nameOrFile) { return fs::path(nameOrFile).filename().string(); };
+  const auto name = [](const std::string& nameOrFile) {
+    return spectral::utf8(spectral::pathOf(nameOrFile).filename());
+  };
   std::string text = name(pipeline.illuminant);
   for (const auto& filter : pipeline.filters) {
     std::array<char, 32> density{};
@@ -171,7 +175,8 @@ class Places {
                                   : "renew that look too, or name another --lut-folder") {
     for (const std::string& look : facts.looks) {
       if (replaced.count(look) == 0 && !look.empty()) {
-        m_used.add(m_lutFolder / (fileName(look) + ".json"), "is the certificate of look '" + look + "'");
+        m_used.add(m_lutFolder / spectral::pathOf(fileName(look) + ".json"),
+                   "is the certificate of look '" + look + "'");
       }
     }
   }
@@ -179,10 +184,10 @@ class Places {
   /// A file for a look to write, before it is written.
   /// @param mark  what metamer's own have in their first bytes
   std::unique_ptr<spectral::PendingFile> file(const std::string& name, const std::string& look, const char* mark) {
-    const fs::path path = m_lutFolder / name;
+    const fs::path path = m_lutFolder / spectral::pathOf(name);
     const auto [own, isNew] = m_looks.emplace(spectral::lowerCase(name), look);
     if (!isNew) {
-      throw InputError(path.string(), "output", "",
+      throw InputError(spectral::utf8(path), "output", "",
                        "would hold both '" + own->second + "' and '" + look + "'; rename one of the recipes");
     }
     m_used.refuse(path, m_remedy);
@@ -205,11 +210,12 @@ std::vector<std::string> unusedFiles(const ConfigFacts& before, const ConfigFact
   const UsedFiles still(after, {folder}, {});
   std::vector<std::string> unused;
   for (const ConfigFile& file : before.fileUses) {
-    const fs::path name = fs::path(file.src).filename();
-    const std::string path = (fs::path(lutFolder) / name).string();
+    const fs::path name = spectral::pathOf(file.src).filename();
+    const std::string path = spectral::utf8(spectral::pathOf(lutFolder) / name);
     std::error_code none;
-    if (replaced.count(file.user) != 0 && fs::is_regular_file(folder / path, none) &&
-        still.userOf(folder / path).empty() && std::find(unused.begin(), unused.end(), path) == unused.end()) {
+    if (replaced.count(file.user) != 0 && fs::is_regular_file(folder / spectral::pathOf(path), none) &&
+        still.userOf(folder / spectral::pathOf(path)).empty() &&
+        std::find(unused.begin(), unused.end(), path) == unused.end()) {
       unused.push_back(path);
     }
   }
@@ -236,7 +242,8 @@ std::string descriptionOf(const ConfigEntry& entry) {
 
 ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral::DataLibrary& library,
                          const fs::path& file, const ConfigOptions& options) {
-  if (options.lutFolder.empty() || fs::path(options.lutFolder).filename() != options.lutFolder ||
+  if (options.lutFolder.empty() ||
+      spectral::pathOf(options.lutFolder).filename() != spectral::pathOf(options.lutFolder) ||
       options.lutFolder.find_first_of(":;$% ") != std::string::npos || options.lutFolder.front() == '.') {
     throw InputError("", "LUT folder", options.lutFolder, "must be one name, of a folder beside the config");
   }
@@ -249,25 +256,26 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
   std::error_code none;
   const fs::path base = options.base.empty() && options.replaces && fs::exists(file, none) ? file : options.base;
   const ConfigDocument document =
-      base.empty() ? ConfigDocument(newConfigText(options.name.empty() ? file.stem().string() : options.name,
+      base.empty() ? ConfigDocument(newConfigText(options.name.empty() ? spectral::utf8(file.stem()) : options.name,
                                                   options.description, options.lutFolder, library),
-                                    file.string())
+                                    spectral::utf8(file))
                    : openBaseConfig(base, file);
   const ConfigFacts& facts = document.facts();
-  const std::string where = base.empty() ? file.string() : base.string();
+  const std::string where = base.empty() ? spectral::utf8(file) : spectral::utf8(base);
   const std::set<std::string> replaced = checkNames(recipes, facts, where, options.replaces);
 
   // The places first: what cannot be written is not worth the work.
   const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
-  const bool hasFolder = !base.empty() && !isBuiltInConfig(base.string());
+  const bool hasFolder = !base.empty() && !isBuiltInConfig(spectral::utf8(base));
   const fs::path baseFolder = hasFolder ? fs::absolute(base).parent_path() : folder;
-  Places places(facts, {folder, baseFolder}, folder / options.lutFolder, replaced);
+  Places places(facts, {folder, baseFolder}, folder / spectral::pathOf(options.lutFolder), replaced);
   places.used().refuse(file, "name another file for the config");
   spectral::PendingFile config(file);
   if (config.isStream()) {
-    throw InputError(file.string(), "output", "", "is a device or pipe, and a config has files beside it; name a file");
+    throw InputError(spectral::utf8(file), "output", "",
+                     "is a device or pipe, and a config has files beside it; name a file");
   }
-  const LutFolder lutFolder(folder / options.lutFolder);
+  const LutFolder lutFolder(folder / spectral::pathOf(options.lutFolder));
   if (!base.empty()) {
     checkLoads(document.with("", "", ""), facts, folder, {}, where);
   }
@@ -305,7 +313,7 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
       lut.write(baked.lutText);
       written.push_back(&lut);
       lutPath = lut.path();
-      pendingName = lutPath.filename().string();
+      pendingName = spectral::utf8(lutPath.filename());
     }
     for (const CoreUse& use : core.uses) {
       ConfigEntry entry;
@@ -355,10 +363,11 @@ fs::path certificateOfLook(const fs::path& config, const std::string& look) {
   if (look.empty() || !fs::is_regular_file(config, none) || config.extension() == ".ocioz") {
     return {};
   }
-  std::vector<std::string> folders = ConfigDocument(spectral::readTextFile(config), config.string()).facts().searchPath;
+  std::vector<std::string> folders =
+      ConfigDocument(spectral::readTextFile(config), spectral::utf8(config)).facts().searchPath;
   folders.push_back(ConfigOptions().lutFolder);
   for (const std::string& folder : folders) {
-    const fs::path file = config.parent_path() / folder / (fileName(look) + ".json");
+    const fs::path file = config.parent_path() / spectral::pathOf(folder) / spectral::pathOf(fileName(look) + ".json");
     if (fs::is_regular_file(file, none)) {
       return file;
     }

@@ -15,6 +15,7 @@
 #include "config/new_config.h"
 #include "metamer/spectral/chromatic_adaptation.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 #include "operators/interchange.h"
 
@@ -140,10 +141,10 @@ void check(const std::string& name, const ConfigFacts& facts, const std::string&
 
 std::string stageConfigText(const StageMatrices& stage, const spectral::DataLibrary& library,
                             const std::filesystem::path& file, const std::filesystem::path& base) {
-  const std::string where = base.empty() ? file.string() : base.string();
+  const std::string where = base.empty() ? spectral::utf8(file) : spectral::utf8(base);
   const ConfigDocument document =
       base.empty() ? ConfigDocument(newConfigText(stage.name, "LED stage " + stage.name + ", by metamer", "", library),
-                                    file.string())
+                                    spectral::utf8(file))
                    : openBaseConfig(base, file);
   const std::string camera = stage.name + " camera";
   const std::string outOfFrustum = stage.name + " wall out of frustum";

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
+#include <optional>
 #include <system_error>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
+#include "metamer/spectral/platform.h"
 #include "operators/lut_file.h"
 
 namespace metamer::ocio {
@@ -22,8 +24,8 @@ bool isOfName(char c) {
 }
 
 std::string valueOf(const std::string& name, const ConfigFacts& facts) {
-  if (const char* value = std::getenv(name.c_str())) {
-    return value;
+  if (const std::optional<std::string> value = spectral::environmentValue(name)) {
+    return *value;
   }
   const auto found = facts.environment.find(name);
   return found == facts.environment.end() || found->second.find_first_of("$%") != std::string::npos
@@ -82,7 +84,7 @@ bool matches(std::string_view pattern, std::string_view path) {
 std::string realPath(const fs::path& file) {
   std::error_code none;
   const fs::path path = fs::weakly_canonical(fs::absolute(file), none);
-  return (none ? fs::absolute(file).lexically_normal() : path).string();
+  return spectral::utf8(none ? fs::absolute(file).lexically_normal() : path);
 }
 
 }  // namespace
@@ -102,11 +104,12 @@ UsedFiles::UsedFiles(const ConfigFacts& facts, const std::vector<fs::path>& fold
     const std::string src = withVariables(file.src, facts);
     for (const std::string& entry : searchPath) {
       for (const fs::path& folder : folders) {
-        const fs::path place = folder / withVariables(entry, facts) / src;  // an absolute src stands alone
-        if (place.string().find(kAnything) == std::string::npos) {
-          addWithReferences(place.string(), user);
+        const fs::path place = folder / spectral::pathOf(withVariables(entry, facts)) /
+                               spectral::pathOf(src);  // an absolute src stands alone
+        if (spectral::utf8(place).find(kAnything) == std::string::npos) {
+          addWithReferences(spectral::utf8(place), user);
         } else {
-          m_uses.push_back({fs::absolute(place).lexically_normal().string(), user});
+          m_uses.push_back({spectral::utf8(fs::absolute(place).lexically_normal()), user});
         }
       }
     }
@@ -114,10 +117,10 @@ UsedFiles::UsedFiles(const ConfigFacts& facts, const std::vector<fs::path>& fold
 }
 
 void UsedFiles::addWithReferences(const std::string& path, const std::string& user) {
-  add(path, user);
+  add(spectral::pathOf(path), user);
   std::error_code none;
-  if (fs::is_regular_file(path, none)) {
-    for (const fs::path& file : filesReferredTo(path)) {
+  if (fs::is_regular_file(spectral::pathOf(path), none)) {
+    for (const fs::path& file : filesReferredTo(spectral::pathOf(path))) {
       add(file, user);
     }
   }
@@ -129,10 +132,11 @@ void UsedFiles::add(const fs::path& file, const std::string& user) {
 
 std::string UsedFiles::userOf(const fs::path& file) const {
   const std::string real = realPath(file);
-  const std::string plain = fs::absolute(file).lexically_normal().string();
+  const std::string plain = spectral::utf8(fs::absolute(file).lexically_normal());
   std::error_code none;
   for (const Use& use : m_uses) {
-    if (matches(use.pattern, real) || matches(use.pattern, plain) || fs::equivalent(use.pattern, file, none)) {
+    if (matches(use.pattern, real) || matches(use.pattern, plain) ||
+        fs::equivalent(spectral::pathOf(use.pattern), file, none)) {
       return use.user;
     }
   }
@@ -142,7 +146,7 @@ std::string UsedFiles::userOf(const fs::path& file) const {
 void UsedFiles::refuse(const fs::path& file, const std::string& remedy) const {
   const std::string user = userOf(file);
   if (!user.empty()) {
-    throw spectral::InputError(file.string(), "output", "", user + " of the base; " + remedy);
+    throw spectral::InputError(spectral::utf8(file), "output", "", user + " of the base; " + remedy);
   }
 }
 

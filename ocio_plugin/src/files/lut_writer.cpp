@@ -11,6 +11,7 @@
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
 #include "operators/grey_ramp.h"
@@ -132,19 +133,19 @@ const LutFormat& lutFormatNamed(const std::string& formatName) {
 }
 
 const LutFormat& lutFormat(const std::filesystem::path& file, const std::string& formatName) {
-  const std::string extension = spectral::lowerCase(file.extension().string());
+  const std::string extension = spectral::lowerCase(spectral::utf8(file.extension()));
   if (formatName.empty()) {
     const auto& formats = lutFormats();
     const auto found = std::find_if(formats.begin(), formats.end(),
                                     [&](const LutFormat& format) { return format.extension == extension; });
     if (found == formats.end()) {
-      throw InputError(file.string(), "extension", extension, "unknown; the formats are " + allFormats());
+      throw InputError(spectral::utf8(file), "extension", extension, "unknown; the formats are " + allFormats());
     }
     return *found;
   }
   const LutFormat& format = lutFormatNamed(formatName);
   if (format.extension != extension && !spectral::isStream(file)) {
-    throw InputError(file.string(), "extension", extension,
+    throw InputError(spectral::utf8(file), "extension", extension,
                      "is not that of " + format.name + "; name the file *" + format.extension);
   }
   return format;

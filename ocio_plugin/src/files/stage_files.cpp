@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "metamer/ocio/lut_writer.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
 #include "operators/matrix_operator.h"
@@ -100,7 +101,8 @@ std::vector<std::filesystem::path> writeStageFiles(const StageMatrices& stage, c
   }
   std::vector<std::unique_ptr<spectral::PendingFile>> pending;
   const auto add = [&](const Part& part, const char* extension, const std::string& text) {
-    pending.push_back(std::make_unique<spectral::PendingFile>(prefix.string() + part.suffix + extension));
+    pending.push_back(
+        std::make_unique<spectral::PendingFile>(spectral::pathOf(spectral::utf8(prefix) + part.suffix + extension)));
     pending.back()->write(text);
   };
   for (const Part& part : parts) {
@@ -111,7 +113,8 @@ std::vector<std::filesystem::path> writeStageFiles(const StageMatrices& stage, c
       add(part, ".spimtx", spiMatrixText(part.matrix, part.offset));
     }
     for (const char* extension : {".clf", ".ctf"}) {
-      add(part, extension, lutText(lutFormat("file" + std::string(extension), ""), part.group, 0, description));
+      add(part, extension,
+          lutText(lutFormat(spectral::pathOf("file" + std::string(extension)), ""), part.group, 0, description));
     }
   }
   std::vector<spectral::PendingFile*> written;

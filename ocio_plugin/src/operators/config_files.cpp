@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "operators/lut_file.h"
 
 namespace metamer::ocio {
@@ -33,7 +34,7 @@ class FileCheck {
   void check(const std::string& source) const {
     std::filesystem::path file;
     try {
-      file = m_config.getCurrentContext()->resolveFileLocation(source.c_str());
+      file = spectral::pathOf(m_config.getCurrentContext()->resolveFileLocation(source.c_str()));
     } catch (const OCIO::Exception&) {
       return;  // it is not there: whoever needs it says so
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/ocio/config_source.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <mutex>
 #include <utility>
@@ -9,6 +8,8 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/missing_file_error.h"
+#include "metamer/spectral/path_text.h"
+#include "metamer/spectral/platform.h"
 #include "metamer/spectral/text.h"
 #include "operators/config_files.h"
 
@@ -21,7 +22,7 @@ constexpr const char* kBuiltIn = "ocio://";
 OCIO::ConstConfigRcPtr read(const std::string& name, const std::string& where, const std::string& value,
                             const std::string& remedy) {
   std::error_code none;
-  if (!isBuiltInConfig(name) && !std::filesystem::is_regular_file(name, none)) {
+  if (!isBuiltInConfig(name) && !std::filesystem::is_regular_file(spectral::pathOf(name), none)) {
     throw spectral::MissingFileError(where, "config", value, "there is no such file; " + remedy);
   }
   try {
@@ -56,8 +57,7 @@ ConfigSource::ConfigSource(std::string environment) : m_state(std::make_shared<S
 }
 
 ConfigSource ConfigSource::environment() {
-  const char* name = std::getenv("OCIO");
-  return ConfigSource(std::string(name == nullptr ? "" : name));
+  return ConfigSource(spectral::environmentValue("OCIO").value_or(""));
 }
 
 OCIO::ConstConfigRcPtr ConfigSource::open() const {

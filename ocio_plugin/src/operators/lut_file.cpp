@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
@@ -27,7 +28,7 @@ std::string startOf(const fs::path& file) {
 }
 
 bool isCtf(const fs::path& file) {
-  const std::string extension = spectral::lowerCase(file.extension().string());
+  const std::string extension = spectral::lowerCase(spectral::utf8(file.extension()));
   return extension == ".ctf" || extension == ".clf";
 }
 
@@ -69,9 +70,9 @@ void follow(const fs::path& file, std::vector<fs::path>& way, std::vector<fs::pa
   way.push_back(fs::weakly_canonical(file, none));
   for (const std::string& reference : isCtf(file) ? referencesOf(file) : std::vector<std::string>{}) {
     const auto refuse = [&](const std::string& remedy) {
-      throw InputError(file.string(), "Reference", reference, remedy);
+      throw InputError(spectral::utf8(file), "Reference", reference, remedy);
     };
-    const fs::path target = file.parent_path() / reference;
+    const fs::path target = file.parent_path() / spectral::pathOf(reference);
     if (fs::exists(target, none) && !fs::is_regular_file(target, none)) {
       refuse("is a device, pipe or folder; refer to a LUT file");
     }
@@ -95,7 +96,7 @@ void follow(const fs::path& file, std::vector<fs::path>& way, std::vector<fs::pa
 void refuseEndlessLut(const fs::path& file) {
   std::error_code none;
   if (fs::exists(file, none) && !fs::is_regular_file(file, none)) {
-    throw InputError(file.string(), "LUT", "", "is a device, pipe or folder; give a LUT file");
+    throw InputError(spectral::utf8(file), "LUT", "", "is a device, pipe or folder; give a LUT file");
   }
   filesReferredTo(file);
 }

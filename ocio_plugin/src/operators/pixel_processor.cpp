@@ -7,6 +7,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/missing_file_error.h"
+#include "metamer/spectral/path_text.h"
 #include "operators/lut_file.h"
 
 namespace metamer::ocio {
@@ -28,18 +29,18 @@ PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
   refuseEndlessLut(file);
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) {
-    throw spectral::MissingFileError(file.string(), "LUT", "", "there is no such file; check the path");
+    throw spectral::MissingFileError(spectral::utf8(file), "LUT", "", "there is no such file; check the path");
   }
   auto transform = OCIO::FileTransform::Create();
   // OCIO looks relative paths up in its search path, and keeps what it has read by name.
-  transform->setSrc(std::filesystem::absolute(file).string().c_str());
+  transform->setSrc(spectral::utf8(std::filesystem::absolute(file)).c_str());
   transform->setInterpolation(OCIO::INTERP_BEST);
   try {
     return PixelProcessor(transform);
   } catch (const spectral::InputError& error) {
     const std::string remedy = remedyOfLut(file);
     throw spectral::InputError(
-        file.string(), "LUT", "",
+        spectral::utf8(file), "LUT", "",
         "cannot be read: " + (remedy.empty() ? error.what() + std::string("; export it again") : remedy));
   }
 }

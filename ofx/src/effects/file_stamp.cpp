@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 
 namespace metamer::ofx {
 
@@ -30,7 +31,7 @@ FileStamps::Stamp FileStamps::stampOf(const std::filesystem::path& file) {
 void requireFile(const std::filesystem::path& file, const std::string& parameter, const std::string& remedy) {
   std::error_code missing;
   if (!std::filesystem::is_regular_file(file, missing)) {
-    throw spectral::InputError(file.string(), parameter, "", "no such file; " + remedy);
+    throw spectral::InputError(spectral::utf8(file), parameter, "", "no such file; " + remedy);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "effects/stage_file.h"
 #include "host/parameter_makers.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "pixels/affine_pixels.h"
 
 namespace metamer::ofx {
@@ -63,11 +64,12 @@ class LedStage final : public Effect {
     if (file.empty()) {
       return std::make_shared<AffinePixels>(AffinePixels::Form{});
     }
-    requireFile(file, "stageFile", "choose what lutgen stage solve wrote anew, or clear the field");
+    requireFile(spectral::pathOf(file), "stageFile", "choose what lutgen stage solve wrote anew, or clear the field");
     const auto stage = m_stages.get(file, [&] {
       FileStamps files;
-      files.add(file);
-      return SharedCache<Stage>::Built{std::make_shared<const Stage>(readStageFile(file)), std::move(files)};
+      files.add(spectral::pathOf(file));
+      return SharedCache<Stage>::Built{std::make_shared<const Stage>(readStageFile(spectral::pathOf(file))),
+                                       std::move(files)};
     });
     AffinePixels::Form form = formOf(*stage, values, time, file);
     const std::string curve = values.menu("curve", time);

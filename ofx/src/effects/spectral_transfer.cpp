@@ -7,6 +7,7 @@
 #include "effects/spectral_transfer_parameters.h"
 #include "metamer/sip/recipe.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 #include "pixels/spectral_pixels.h"
 
@@ -26,8 +27,9 @@ class RecipeReader {
   sip::Recipe read() const {
     const std::string file = m_values.text("recipeFile", m_time);
     if (!file.empty()) {
-      requireFile(file, "recipeFile", "choose the recipe anew, or clear the field to go by the menus");
-      return sip::readRecipe(file);
+      requireFile(spectral::pathOf(file), "recipeFile",
+                  "choose the recipe anew, or clear the field to go by the menus");
+      return sip::readRecipe(spectral::pathOf(file));
     }
     sip::Recipe recipe;
     recipe.space = m_values.menu("space", m_time);
@@ -51,7 +53,7 @@ class RecipeReader {
     if (path.empty()) {
       throw InputError("", name, "", "no file is chosen; choose one, or another entry in " + menu);
     }
-    requireFile(path, name, "choose the file anew, or another entry in " + menu);
+    requireFile(spectral::pathOf(path), name, "choose the file anew, or another entry in " + menu);
     return path.find_first_of("/\\") == std::string::npos ? "./" + path : path;
   }
 
@@ -112,14 +114,14 @@ class RecipeReader {
 FileStamps filesOf(const sip::Recipe& recipe) {
   FileStamps files;
   for (const sip::RecipePipeline* side : {&recipe.input, &recipe.output}) {
-    files.add(recipe.folder / side->illuminant);
-    files.add(recipe.folder / side->observer);
+    files.add(recipe.folder / spectral::pathOf(side->illuminant));
+    files.add(recipe.folder / spectral::pathOf(side->observer));
     for (const sip::RecipeFilter& filter : side->filters) {
-      files.add(recipe.folder / filter.name);
+      files.add(recipe.folder / spectral::pathOf(filter.name));
     }
   }
   if (!recipe.scene.set.empty()) {
-    files.add(recipe.folder / recipe.scene.set);
+    files.add(recipe.folder / spectral::pathOf(recipe.scene.set));
   }
   return files;
 }
@@ -144,7 +146,7 @@ class SpectralTransfer final : public Effect {
     const spectral::ColourSpace space = m_catalogue.space(recipe.space);
     // Log spaces and their linear ones share an engine.
     recipe.space = space.linear.name;
-    const auto engine = m_engines.get(toYaml(recipe) + recipe.folder.string(), [&] {
+    const auto engine = m_engines.get(toYaml(recipe) + spectral::utf8(recipe.folder), [&] {
       FileStamps files = filesOf(recipe);
       return SharedCache<SpectralEngine>::Built{
           std::make_shared<SpectralEngine>(sip::resolve(recipe, library, space.linear), m_memory, m_draftMemory),

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 
 namespace metamer::ofx {
@@ -53,7 +54,7 @@ Eigen::Matrix3d readMatrix(const json& root, const std::string& where, const cha
 }  // namespace
 
 Stage readStageFile(const std::filesystem::path& file) {
-  return parseStageFile(spectral::readTextFile(file), file.string());
+  return parseStageFile(spectral::readTextFile(file), spectral::utf8(file));
 }
 
 Stage parseStageFile(const std::string& text, const std::string& where) {

@@ -10,6 +10,7 @@
 #include "metamer/sip/pairs.h"
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/spectral_integral.h"
 #include "metamer/spectral/text.h"
@@ -201,22 +202,23 @@ Pair reflectanceOf(const std::string& name, const std::vector<PairColour>& colou
 }
 
 bool isTableOfColours(const std::filesystem::path& file) {
-  if (spectral::lowerCase(file.extension().string()) != ".csv" || !std::filesystem::exists(file)) {
+  if (spectral::lowerCase(spectral::utf8(file.extension())) != ".csv" || !std::filesystem::exists(file)) {
     return false;
   }
   const std::string text = spectral::readTextFile(file);
   const std::vector<Line> lines = linesOf(text);
-  return !lines.empty() && numbersOf(lines[0], file.string());
+  return !lines.empty() && numbersOf(lines[0], spectral::utf8(file));
 }
 
 std::vector<Pair> readPairs(const std::string& nameOrFile, const spectral::DataLibrary& library,
                             const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / nameOrFile;
+  const std::filesystem::path path = folder / spectral::pathOf(nameOrFile);
   std::vector<Pair> pairs;
   if (spectral::looksLikeSpectralFile(nameOrFile) && isTableOfColours(path)) {
     const std::string text = spectral::readTextFile(path);
     const std::vector<Line> lines = linesOf(text);
-    pairs = pairsOfColours(lines, *numbersOf(lines[0], path.string()), path.string(), library, path.parent_path());
+    pairs = pairsOfColours(lines, *numbersOf(lines[0], spectral::utf8(path)), spectral::utf8(path), library,
+                           path.parent_path());
   } else {
     for (const spectral::Spectrum& sample : library.reflectances(nameOrFile, folder).samples) {
       pairs.push_back({sample.name(), sample.onDomain()});

@@ -10,6 +10,7 @@
 #include "metamer/sip/pairs.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 #include "metamer/spectral/yaml_section.h"
@@ -168,10 +169,10 @@ Recipe readRecipe(const std::filesystem::path& file) {
   std::error_code none;
   const auto size = std::filesystem::file_size(file, none);
   if (!none && std::filesystem::is_regular_file(file, none) && size > kLargestRecipeBytes) {
-    throw InputError(file.string(), "size", std::to_string(size),
+    throw InputError(spectral::utf8(file), "size", std::to_string(size),
                      "is more than a recipe may have (" + std::to_string(kLargestRecipeBytes) + " bytes)");
   }
-  Recipe recipe = parseRecipe(spectral::readTextFile(file), file.string());
+  Recipe recipe = parseRecipe(spectral::readTextFile(file), spectral::utf8(file));
   recipe.folder = file.parent_path();
   return recipe;
 }
@@ -309,8 +310,8 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
 std::vector<std::string> notesOf(const Recipe& recipe, const TransformSpec& spec) {
   std::vector<std::string> notes;
   const auto add = [&](const std::string& role, const std::string& name, const spectral::Spectrum& spectrum) {
-    const std::filesystem::path path(name);
-    const std::string shown = path.is_absolute() ? path.filename().string() : name;
+    const std::filesystem::path path = spectral::pathOf(name);
+    const std::string shown = path.is_absolute() ? spectral::utf8(path.filename()) : name;
     for (const std::string& note : spectrum.notes()) {
       notes.push_back(role + " " + shown + ": " + note);
     }

@@ -9,6 +9,7 @@
 #include "colours/in_parallel.h"
 #include "colours/pixel_checks.h"
 #include "metamer/spectral/missing_file_error.h"
+#include "metamer/spectral/path_text.h"
 #include "network/perceptron.h"
 
 namespace metamer::skin {
@@ -25,7 +26,7 @@ constexpr const char* kSpace = "Rec.709";
 /// Weights lie beside the prior that they were trained on.
 json weightsOf(const spectral::DataLibrary& library, std::string& where) {
   const std::filesystem::path file = library.skinPriorFile().parent_path() / "skin_network.json";
-  where = file.string();
+  where = spectral::utf8(file);
   std::ifstream stream(file);
   if (!stream) {
     throw spectral::MissingFileError(where, "skin network", "", "cannot be read; use the data folder of this release");

@@ -13,6 +13,7 @@
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/missing_file_error.h"
+#include "metamer/spectral/path_text.h"
 
 namespace metamer::skin {
 namespace {
@@ -47,7 +48,7 @@ std::array<double, 2> normalPair(std::mt19937& random) {
 
 SkinPrior SkinPrior::read(const spectral::DataLibrary& library) {
   const std::filesystem::path file = library.skinPriorFile();
-  const std::string where = file.string();
+  const std::string where = spectral::utf8(file);
   std::ifstream stream(file);
   if (!stream) {
     throw spectral::MissingFileError(where, "skin prior", "", "cannot be read; use the data folder of this release");

@@ -2,7 +2,6 @@
 #include "metamer/spectral/data_library.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <deque>
 #include <mutex>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/observer_of_curves.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/platform.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
@@ -27,7 +27,7 @@ namespace {
 class LoadedTable {
  public:
   LoadedTable(const std::filesystem::path& folder, ManifestTable description)
-      : m_file(folder / description.file), m_description(std::move(description)) {}
+      : m_file(folder / pathOf(description.file)), m_description(std::move(description)) {}
 
   const ManifestTable& description() const { return m_description; }
   const std::filesystem::path& file() const { return m_file; }
@@ -44,7 +44,7 @@ class LoadedTable {
 
  private:
   std::vector<Spectrum> read() const {
-    const std::string where = m_file.string();
+    const std::string where = utf8(m_file);
     std::vector<Spectrum> spectra =
         readCsvOfScale(readTextFile(m_file), where, m_description.quantity, StatedScale::Unity);
     const std::string& group = m_description.group;
@@ -165,7 +165,7 @@ struct DataLibrary::State {
     const auto table = std::find_if(tables.begin(), tables.end(),
                                     [&](const LoadedTable& t) { return t.description().group == group; });
     if (table == tables.end()) {
-      throw InputError((folder / "manifest.json").string(), "group", group,
+      throw InputError(utf8(folder / "manifest.json"), "group", group,
                        "is missing; use the data folder of this release");
     }
     return *table;
@@ -195,7 +195,7 @@ struct DataLibrary::State {
     if (!looksLikeSpectralFile(name)) {
       return std::nullopt;
     }
-    return readSpectralFile(baseFolder / name, quantity);
+    return readSpectralFile(baseFolder / pathOf(name), quantity);
   }
 
   /// The spectrum of a table that has a name a column.
@@ -222,8 +222,7 @@ DataLibrary DataLibrary::open(const std::filesystem::path& folder) {
 }
 
 DataLibrary DataLibrary::openDefault() {
-  const char* const variable = std::getenv("METAMER_DATA");
-  const std::filesystem::path named = variable == nullptr ? "" : variable;
+  const std::filesystem::path named = pathOf(environmentValue("METAMER_DATA").value_or(""));
   const std::filesystem::path beside = programFolder().parent_path() / "share" / "metamer" / "data";
   std::error_code error;
   for (const std::filesystem::path& folder : {named, beside}) {
@@ -235,8 +234,8 @@ DataLibrary DataLibrary::openDefault() {
       break;
     }
   }
-  throw InputError("data folder", "METAMER_DATA", named.string(),
-                   "no manifest.json there or in " + beside.string() + "; set METAMER_DATA to metamer's data folder");
+  throw InputError("data folder", "METAMER_DATA", utf8(named),
+                   "no manifest.json there or in " + utf8(beside) + "; set METAMER_DATA to metamer's data folder");
 }
 
 std::vector<std::string> DataLibrary::illuminantNames() const {
@@ -271,7 +270,7 @@ Spectrum DataLibrary::illuminant(const std::string& nameOrFile, const std::files
     return daylight(*temperature, m_state->onlyTable("daylight_basis").spectra());
   }
   if (auto spectra = m_state->fromFile(nameOrFile, baseFolder, SpectralQuantity::SpectralPowerDistribution)) {
-    return onlySpectrum(*std::move(spectra), (baseFolder / nameOrFile).string());
+    return onlySpectrum(*std::move(spectra), utf8(baseFolder / pathOf(nameOrFile)));
   }
   m_state->throwUnknown("illuminants", nameOrFile);
 }
@@ -283,7 +282,7 @@ Observer DataLibrary::observer(const std::string& nameOrFile, const std::filesys
   }
   if (const auto curves = m_state->fromFile(nameOrFile, baseFolder, SpectralQuantity::Sensitivity)) {
     if (curves->size() != 3) {
-      throw InputError((baseFolder / nameOrFile).string(), "columns", std::to_string(curves->size() + 1),
+      throw InputError(utf8(baseFolder / pathOf(nameOrFile)), "columns", std::to_string(curves->size() + 1),
                        "must be 4, a wavelength and three responses");
     }
     return observerOfCurves(nameOrFile, *curves);
@@ -296,7 +295,7 @@ Spectrum DataLibrary::filter(const std::string& nameOrFile, const std::filesyste
     return *std::move(found);
   }
   if (auto spectra = m_state->fromFile(nameOrFile, baseFolder, SpectralQuantity::Transmittance)) {
-    return onlySpectrum(*std::move(spectra), (baseFolder / nameOrFile).string());
+    return onlySpectrum(*std::move(spectra), utf8(baseFolder / pathOf(nameOrFile)));
   }
   m_state->throwUnknown("filters", nameOrFile);
 }

@@ -7,6 +7,7 @@
 #include "files/json_text.h"
 #include "files/sampled_rows.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
@@ -114,7 +115,7 @@ ManifestTable readTable(const nlohmann::json& entry, const std::string& manifest
 
 std::vector<ManifestTable> readManifest(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "manifest.json";
-  const std::string where = file.string();
+  const std::string where = utf8(file);
   const nlohmann::json document = parseJson(readTextFile(file), where);
   const nlohmann::json& version = member(document, "metamer_data");
   if (!version.is_number_integer() || version != kVersion) {
@@ -133,7 +134,7 @@ std::vector<ManifestTable> readManifest(const std::filesystem::path& folder) {
 }
 
 std::vector<RgbSpace> readRgbSpaces(const std::filesystem::path& file) {
-  const std::string where = file.string();
+  const std::string where = utf8(file);
   const nlohmann::json document = parseJson(readTextFile(file), where);
   const nlohmann::json& entries = member(document, "spaces");
   if (!entries.is_array()) {

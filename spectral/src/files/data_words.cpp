@@ -6,6 +6,7 @@
 
 #include "files/json_text.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
@@ -80,7 +81,7 @@ DataWords readWords(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(file, none)) {
     return words;
   }
-  const std::string where = file.string();
+  const std::string where = utf8(file);
   const nlohmann::json document = parseJson(readTextFile(file), where);
   const nlohmann::json& entries = member(document, "entries");
   if (!entries.is_array()) {

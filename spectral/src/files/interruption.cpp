@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/spectral/interruption.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -21,7 +22,7 @@ namespace {
 struct Slot {
   std::atomic<bool> isTaken = false;
   std::atomic<bool> isUnfinished = false;
-  std::array<char, 4096> path{};
+  std::array<std::filesystem::path::value_type, 4096> path{};
   Slot* next = nullptr;
 };
 
@@ -45,9 +46,11 @@ Slot* takeSlot() {
   return slot;
 }
 
-void removePath(const char* path) {
+void removePath(const std::filesystem::path::value_type* path) {
 #if defined(_WIN32)
-  _unlink(path);
+  if (_wunlink(path) != 0) {
+    _wrmdir(path);
+  }
 #else
   if (unlink(path) != 0) {
     rmdir(path);
@@ -139,10 +142,11 @@ void handle(int signal) {
 }  // namespace
 
 Unfinished::Unfinished(const std::filesystem::path& path) : m_slot(nullptr) {
-  const std::string text = std::filesystem::absolute(path).string();
+  const std::filesystem::path place = std::filesystem::absolute(path);
+  const std::filesystem::path::string_type& name = place.native();
   Slot* slot = takeSlot();
-  if (text.size() < slot->path.size()) {
-    std::memcpy(slot->path.data(), text.c_str(), text.size() + 1);
+  if (name.size() < slot->path.size()) {
+    std::copy_n(name.c_str(), name.size() + 1, slot->path.data());
     slot->isUnfinished = true;
   }
   m_slot = slot;

@@ -9,6 +9,8 @@
 #include <system_error>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
+#include "metamer/spectral/platform.h"
 
 #if !defined(_WIN32)
 #include <sys/stat.h>
@@ -25,7 +27,7 @@ constexpr int kMostLinks = 40;
 
 /// Of /dev/stdout, /dev/stderr, /dev/fd/N and /proc/self/fd/N: opened by name they would start at their beginning.
 std::optional<int> descriptorOf(const fs::path& path) {
-  const std::string name = path.lexically_normal().string();
+  const std::string name = utf8(path.lexically_normal());
   if (name == "/dev/stdout") {
     return 1;
   }
@@ -46,7 +48,7 @@ std::optional<int> descriptorOf(const fs::path& path) {
 }
 
 [[noreturn]] void refuse(const fs::path& target, const std::string& remedy) {
-  throw InputError(target.string(), "output", "", remedy);
+  throw InputError(utf8(target), "output", "", remedy);
 }
 
 fs::path behindLinks(const fs::path& target) {
@@ -96,7 +98,7 @@ std::FILE* openStream(const fs::path& path) {
     return own < 0 ? nullptr : fdopen(own, "wb");
   }
 #endif
-  return std::fopen(path.string().c_str(), "wb");
+  return openFile(path, "wb");
 }
 
 void keepOwnerAndMode(const fs::path& from, const fs::path& to) {

@@ -13,6 +13,8 @@
 
 #include "files/output_place.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
+#include "metamer/spectral/platform.h"
 
 namespace metamer::spectral {
 namespace {
@@ -33,12 +35,12 @@ std::string reason() {
 
 /// Beside a file, under another name with its extension.
 fs::path partialName(const fs::path& place, unsigned number) {
-  const std::string end = ".partial-" + std::to_string(number) + place.extension().string();
-  std::string stem = place.stem().string();
+  const std::string end = ".partial-" + std::to_string(number) + utf8(place.extension());
+  std::string stem = utf8(place.stem());
   if (stem.size() + end.size() > kLongestName && end.size() < kLongestName) {
     stem.resize(kLongestName - end.size());
   }
-  return place.parent_path() / (stem + end);
+  return place.parent_path() / pathOf(stem + end);
 }
 
 }  // namespace
@@ -53,7 +55,7 @@ PendingFile::PendingFile(fs::path target) : m_target(std::move(target)) {
   for (int attempt = 0; attempt < 16; ++attempt) {
     m_path = partialName(beside, random());
     m_unfinished.emplace(m_path);
-    const std::unique_ptr<std::FILE, Close> file(std::fopen(m_path.c_str(), "wbx"));
+    const std::unique_ptr<std::FILE, Close> file(openFile(m_path, "wbx"));
     if (file) {
       return;
     }
@@ -62,7 +64,7 @@ PendingFile::PendingFile(fs::path target) : m_target(std::move(target)) {
       break;
     }
   }
-  throw InputError(m_target.string(), "output", "", reason() + "; choose a folder that is there and writable");
+  throw InputError(utf8(m_target), "output", "", reason() + "; choose a folder that is there and writable");
 }
 
 PendingFile::~PendingFile() {
@@ -73,13 +75,13 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::write(std::string_view contents) {
-  std::unique_ptr<std::FILE, Close> file(std::fopen(m_path.c_str(), "wb"));
+  std::unique_ptr<std::FILE, Close> file(openFile(m_path, "wb"));
   const bool written = file && std::fwrite(contents.data(), 1, contents.size(), file.get()) == contents.size() &&
                        std::fflush(file.get()) == 0;
   const int failure = errno;
   if (!written || std::fclose(file.release()) != 0) {
     errno = written ? errno : failure;
-    throw InputError(m_target.string(), "output", "", reason() + kMakeRoom);
+    throw InputError(utf8(m_target), "output", "", reason() + kMakeRoom);
   }
 }
 
@@ -95,7 +97,7 @@ void PendingFile::copyIntoStream() const {
     isWritten = std::fwrite(piece.data(), 1, count, into.get()) == count;
   }
   if (!isWritten || std::fflush(into.get()) != 0) {
-    throw InputError(m_target.string(), "output", "", reason() + "; name a file, or what takes it all");
+    throw InputError(utf8(m_target), "output", "", reason() + "; name a file, or what takes it all");
   }
 }
 
@@ -113,8 +115,7 @@ void PendingFile::commit() {
   std::error_code failure;
   fs::rename(m_path, m_place, failure);
   if (failure) {
-    throw InputError(m_target.string(), "output", "",
-                     "cannot be replaced: " + failure.message() + "; name another file");
+    throw InputError(utf8(m_target), "output", "", "cannot be replaced: " + failure.message() + "; name another file");
   }
   finish();
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
@@ -16,7 +17,7 @@ constexpr const char* kHeader = "kind,red,green,blue";
 }  // namespace
 
 std::vector<SetPixel> readPixelSet(const std::filesystem::path& file) {
-  const std::string where = file.string();
+  const std::string where = utf8(file);
   std::istringstream text(readTextFile(file));
   std::string line;
   if (!std::getline(text, line) || trimmed(line) != kHeader) {

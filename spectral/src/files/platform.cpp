@@ -5,6 +5,8 @@
 #include <system_error>
 #include <vector>
 
+#include "metamer/spectral/path_text.h"
+
 #if defined(_WIN32)
 #include <io.h>
 #include <process.h>
@@ -18,6 +20,24 @@
 #endif
 
 namespace metamer::spectral {
+
+std::FILE* openFile(const std::filesystem::path& path, const char* mode) {
+#if defined(_WIN32)
+  return _wfopen(path.c_str(), pathOf(mode).c_str());
+#else
+  return std::fopen(path.c_str(), mode);
+#endif
+}
+
+std::optional<std::string> environmentValue(const std::string& name) {
+#if defined(_WIN32)
+  const wchar_t* value = _wgetenv(pathOf(name).c_str());
+  return value == nullptr ? std::nullopt : std::optional(utf8(value));
+#else
+  const char* value = std::getenv(name.c_str());
+  return value == nullptr ? std::nullopt : std::optional<std::string>(value);
+#endif
+}
 
 std::filesystem::path programFolder() {
 #if defined(_WIN32)
@@ -41,7 +61,16 @@ std::filesystem::path programFolder() {
 
 void becomeProgram(const std::filesystem::path& program, char** arguments) {
 #if defined(_WIN32)
-  const intptr_t status = _spawnv(_P_WAIT, program.string().c_str(), arguments);
+  std::vector<std::filesystem::path> words;
+  for (; *arguments != nullptr; ++arguments) {
+    words.push_back(pathOf(*arguments));
+  }
+  std::vector<const wchar_t*> wide;
+  for (const std::filesystem::path& word : words) {
+    wide.push_back(word.c_str());
+  }
+  wide.push_back(nullptr);
+  const intptr_t status = _wspawnv(_P_WAIT, program.c_str(), wide.data());
   if (status != -1) {
     std::exit(static_cast<int>(status));
   }
@@ -74,7 +103,7 @@ std::filesystem::path libraryFolder(const void* address) {
     return {};
   }
   std::error_code error;
-  return std::filesystem::absolute(found.dli_fname, error).parent_path();
+  return std::filesystem::absolute(pathOf(found.dli_fname), error).parent_path();
 #endif
 }
 

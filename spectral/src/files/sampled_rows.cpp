@@ -7,6 +7,7 @@
 
 #include "files/usable_curve.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::spectral {
@@ -136,7 +137,7 @@ std::vector<Spectrum> spectraFromRows(SampledRows rows, SpectralQuantity quantit
 }
 
 std::string stemOf(const std::string& where) {
-  std::string stem = std::filesystem::path(where).stem().string();
+  std::string stem = utf8(pathOf(where).stem());
   return stem.empty() ? "spectrum" : stem;
 }
 

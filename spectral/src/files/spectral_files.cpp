@@ -11,6 +11,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/missing_file_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/text.h"
 
@@ -21,7 +22,7 @@ constexpr std::array<std::string_view, 9> kTables{".csv", ".txt", ".tsv",  ".asc
                                                   ".sp",  ".ti3", ".ccss", ".cgats"};
 
 std::string extensionOf(const std::string& file) {
-  return lowerCase(std::filesystem::path(file).extension().string());
+  return lowerCase(utf8(pathOf(file).extension()));
 }
 
 constexpr std::string_view kPicture = ".exr";
@@ -40,7 +41,7 @@ std::vector<Spectrum> readWholeFile(const std::string& file, SpectralQuantity qu
     throw InputError(file, "extension", extension,
                      "must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), .spdx, .json or .exr");
   }
-  const std::string text = readTextFile(file);
+  const std::string text = readTextFile(pathOf(file));
   return extension == ".spdx"   ? readSpdx(text, file, quantity)
          : extension == ".json" ? readRawtoacesJson(text, file, quantity)
                                 : readCsv(text, file, quantity);
@@ -73,7 +74,7 @@ Spectrum columnNamed(const std::string& column, const std::vector<Spectrum>& spe
 }  // namespace
 
 std::string readTextFile(const std::filesystem::path& file) {
-  const std::string where = file.string();
+  const std::string where = utf8(file);
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -110,11 +111,11 @@ SpectralFileName spectralFileName(const std::string& text) {
 }
 
 bool hasSpectralExtension(const std::filesystem::path& file) {
-  return isKnown(extensionOf(spectralFileName(file.string()).file));
+  return isKnown(extensionOf(spectralFileName(utf8(file)).file));
 }
 
 bool looksLikeSpectralFile(const std::string& nameOrFile) {
-  return nameOrFile.find_first_of("/\\") != std::string::npos || hasSpectralExtension(nameOrFile);
+  return nameOrFile.find_first_of("/\\") != std::string::npos || hasSpectralExtension(pathOf(nameOrFile));
 }
 
 std::string columnsText(const std::vector<Spectrum>& spectra) {
@@ -131,7 +132,7 @@ std::string columnsText(const std::vector<Spectrum>& spectra) {
 }
 
 std::vector<Spectrum> readSpectralFile(const std::filesystem::path& fileOrColumn, SpectralQuantity quantity) {
-  const auto [where, column] = spectralFileName(fileOrColumn.string());
+  const auto [where, column] = spectralFileName(utf8(fileOrColumn));
   if (extensionOf(where) == kPicture) {
     return readSpectralPicture(where, column, quantity);
   }

@@ -4,6 +4,7 @@
 #include "files/json_text.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 
 namespace metamer::spectral {
@@ -55,7 +56,7 @@ std::string storageText(const StoredSet& set) {
 }
 
 StoredSet readStorage(const std::filesystem::path& file) {
-  const std::string where = file.string();
+  const std::string where = utf8(file);
   const nlohmann::json json = parseJson(readTextFile(file), where);
   if (const nlohmann::json& version = member(json, "metamer_storage"); version != 1) {
     throw InputError(where, "metamer_storage", valueText(version), "must be 1, " + std::string(kMadeBy));

@@ -10,6 +10,7 @@
 
 #include "files/sampled_rows.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 #include "tables/layouts.h"
@@ -165,9 +166,9 @@ Spectrum opticalConstantFrom(const std::string& text, bool isYaml, const std::st
 }
 
 Spectrum readOpticalConstant(const std::filesystem::path& file, OpticalConstant part) {
-  const std::string extension = lowerCase(file.extension().string());
+  const std::string extension = lowerCase(utf8(file.extension()));
   const bool isYaml = extension == ".yml" || extension == ".yaml";
-  return opticalConstantFrom(readTextFile(file), isYaml, file.string(), part);
+  return opticalConstantFrom(readTextFile(file), isYaml, utf8(file), part);
 }
 
 }  // namespace metamer::spectral

@@ -6,6 +6,7 @@
 
 #include "files/json_text.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/spectral_integral.h"
 
@@ -38,9 +39,10 @@ Eigen::VectorXd UpliftBasis::curve(const std::string& name) const {
 
 UpliftBasis readUpliftBasis(const DataLibrary& library, const std::string& name) {
   // Tables stand in the data folder under the paths that their manifest gives.
-  const std::filesystem::path file = library.skinPriorFile().parent_path() / library.provenance("uplifts", name).file;
+  const std::filesystem::path file =
+      library.skinPriorFile().parent_path() / pathOf(library.provenance("uplifts", name).file);
   UpliftBasis basis;
-  basis.where = file.string();
+  basis.where = utf8(file);
   const nlohmann::json document = parseJson(readTextFile(file), basis.where);
   basis.wavelengthsNm = numbersOf(member(document, "wavelengths_nm"), basis.where, "wavelengths_nm");
   if (!std::is_sorted(basis.wavelengthsNm.begin(), basis.wavelengthsNm.end(), std::less_equal<>())) {

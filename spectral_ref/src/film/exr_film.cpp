@@ -11,6 +11,7 @@
 #include "film/check_sum.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_picture.h"
 
@@ -158,11 +159,11 @@ std::string rangesText(const SampleRanges& ranges) {
 void writeExr(const Film& film, const FilmNotes& notes, const std::filesystem::path& file, bool withState,
               bool withReplicates) {
   if (file.extension() != ".exr") {
-    throw InputError(file.string(), "extension", file.extension().string(), "must be .exr");
+    throw InputError(spectral::utf8(file), "extension", spectral::utf8(file.extension()), "must be .exr");
   }
   spectral::PendingFile pending(file);
   const auto failure = [&file](const std::string& reason) {
-    return InputError(file.string(), "output", "",
+    return InputError(spectral::utf8(file), "output", "",
                       "cannot be written: " + reason + "; nothing is left behind, make room and try again");
   };
   std::vector<OIIO::ImageSpec> specs = {pictureSpec(film, notes, withReplicates)};
@@ -172,7 +173,7 @@ void writeExr(const Film& film, const FilmNotes& notes, const std::filesystem::p
     specs.back().attribute("oiio:subimagename", "state");
   }
   const auto output = OIIO::ImageOutput::create("openexr");
-  const std::string path = pending.path().string();
+  const std::string path = spectral::utf8(pending.path());
   if (!output || !output->open(path, static_cast<int>(specs.size()), specs.data())) {
     throw failure(output ? output->geterror() : OIIO::geterror());
   }
@@ -204,7 +205,7 @@ void writeExr(const Film& film, const FilmNotes& notes, const std::filesystem::p
 }
 
 std::pair<Film, FilmNotes> readExrState(const std::filesystem::path& file) {
-  const std::string where = file.string();
+  const std::string where = spectral::utf8(file);
   const auto input = OIIO::ImageInput::open(where);
   if (!input) {
     const std::string reason = OIIO::geterror();

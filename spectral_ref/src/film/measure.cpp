@@ -9,6 +9,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral_ref/film.h"
 
 namespace metamer::spectral_ref {
@@ -19,7 +20,7 @@ using spectral::InputError;
 /// A picture in memory, channels by name.
 class PictureFile {
  public:
-  explicit PictureFile(const std::filesystem::path& file) : m_where(file.string()) {
+  explicit PictureFile(const std::filesystem::path& file) : m_where(spectral::utf8(file)) {
     const auto input = OIIO::ImageInput::open(m_where);
     if (!input) {
       const std::string reason = OIIO::geterror();

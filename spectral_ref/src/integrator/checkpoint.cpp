@@ -12,6 +12,7 @@
 
 #include "film/check_sum.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 
 namespace metamer::spectral_ref {
@@ -60,7 +61,7 @@ class CheckpointFile {
   void check() const {
     if (!m_stream) {
       throw spectral::InputError(
-          m_pending.target().string(), "checkpoint", "",
+          spectral::utf8(m_pending.target()), "checkpoint", "",
           "cannot be written: " + std::string(std::strerror(errno)) + "; an older one stays as it was, make room");
     }
   }
@@ -81,7 +82,7 @@ void writeCheckpoint(const std::function<void(const ByteSink&)>& state, const st
 
 void readCheckpoint(const std::filesystem::path& file, const std::function<void(const ByteSource&)>& state) {
   const auto error = [&file](const char* remedy) {
-    return spectral::InputError(file.string(), "checkpoint", "", remedy);
+    return spectral::InputError(spectral::utf8(file), "checkpoint", "", remedy);
   };
   constexpr const char* kUnreadable = "cannot be read; check its permissions";
   constexpr const char* kDamaged = "is damaged or of another release; delete it and start again";

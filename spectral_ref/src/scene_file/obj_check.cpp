@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::spectral_ref {
@@ -75,7 +76,7 @@ class ObjCheck {
 
  private:
   [[noreturn]] void refuse(const std::string& field, const std::string& value, const std::string& remedy) const {
-    throw InputError(m_file.string() + ":" + std::to_string(m_line), field, value, remedy);
+    throw InputError(spectral::utf8(m_file) + ":" + std::to_string(m_line), field, value, remedy);
   }
 
   /// A line with those that a backslash joins to it.

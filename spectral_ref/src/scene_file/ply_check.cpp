@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::spectral_ref {
@@ -65,7 +66,8 @@ struct Header {
 
 class PlyChecker {
  public:
-  explicit PlyChecker(const std::filesystem::path& file) : m_where(file.string()), m_stream(file, std::ios::binary) {}
+  explicit PlyChecker(const std::filesystem::path& file)
+      : m_where(spectral::utf8(file)), m_stream(file, std::ios::binary) {}
 
   void check() {
     readHeader();

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "scene_file/obj_check.h"
 #include "scene_file/ply_check.h"
 
@@ -53,8 +54,8 @@ constexpr std::uintmax_t kLargestMesh = std::uintmax_t{4} << 30U;
 }  // namespace
 
 Mesh readMesh(const SceneValue& file, const std::filesystem::path& folder) {
-  const std::filesystem::path path = folder / file.text();
-  const std::string extension = path.extension().string();
+  const std::filesystem::path path = folder / spectral::pathOf(file.text());
+  const std::string extension = spectral::utf8(path.extension());
   if (extension != ".obj" && extension != ".ply") {
     throw file.error("must be an .obj or .ply file");
   }
@@ -73,13 +74,14 @@ Mesh readMesh(const SceneValue& file, const std::filesystem::path& folder) {
     }
   }
   Assimp::Importer importer;
-  importer.SetIOHandler(new OneFile(path.string()));  // the importer's from here on
-  const aiScene* scene = importer.ReadFile(path.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  importer.SetIOHandler(new OneFile(spectral::utf8(path)));  // the importer's from here on
+  const aiScene* scene =
+      importer.ReadFile(spectral::utf8(path), aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (scene == nullptr) {
-    throw file.error("", "'" + path.string() + "' cannot be read: " + importer.GetErrorString());
+    throw file.error("", "'" + spectral::utf8(path) + "' cannot be read: " + importer.GetErrorString());
   }
   Mesh mesh;
-  mesh.file = path.string();
+  mesh.file = spectral::utf8(path);
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& part = *scene->mMeshes[m];
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -101,7 +103,7 @@ Mesh readMesh(const SceneValue& file, const std::filesystem::path& folder) {
     }
   }
   if (mesh.triangles.empty()) {
-    throw file.error("", "'" + path.string() + "' has no triangle with an area; mend the mesh");
+    throw file.error("", "'" + spectral::utf8(path) + "' has no triangle with an area; mend the mesh");
   }
   // What no triangle uses may be no number; the hierarchy must not see it.
   for (auto& vertex : mesh.vertices) {

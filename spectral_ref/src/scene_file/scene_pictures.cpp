@@ -11,6 +11,7 @@
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/png_check.h"
 #include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/spectrum.h"
@@ -29,38 +30,40 @@ struct Pixels {
 };
 
 Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / value.text();
+  const std::filesystem::path file = folder / spectral::pathOf(value.text());
   std::error_code none;
   if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) {
     throw value.error("is a device, pipe or folder; give a picture file");
   }
   try {
-    spectral::refuseBrokenPng(file.string());
+    spectral::refuseBrokenPng(spectral::utf8(file));
   } catch (const spectral::InputError& error) {
     throw value.error("", error.what());
   }
-  const auto input = OIIO::ImageInput::open(file.string());
+  const auto input = OIIO::ImageInput::open(spectral::utf8(file));
   if (!input) {
     const std::string reason = OIIO::geterror();
-    throw value.error("", "'" + file.string() + "' cannot be read: " + spectral::pictureReason(reason));
+    throw value.error("", "'" + spectral::utf8(file) + "' cannot be read: " + spectral::pictureReason(reason));
   }
   const OIIO::ImageSpec& spec = input->spec();
   constexpr std::uint64_t kMostPixels = 1U << 26U;
   if (spec.image_pixels() > kMostPixels || spec.deep || spec.image_pixels() == 0) {
-    throw value.error("", "'" + file.string() + "' is empty, deep or has more than 2^26 pixels; give a plain picture");
+    throw value.error(
+        "", "'" + spectral::utf8(file) + "' is empty, deep or has more than 2^26 pixels; give a plain picture");
   }
   constexpr std::uint64_t kMostValues = 1U << 30U;
   if (spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMostValues) {
-    throw value.error("", "'" + file.string() + "' has more than 2^30 values; give fewer pixels or channels");
+    throw value.error("", "'" + spectral::utf8(file) + "' has more than 2^30 values; give fewer pixels or channels");
   }
   Pixels pixels{spec.width, spec.height, spec.nchannels, spec.channelnames, {}};
   pixels.values.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.values.data())) {
-    throw value.error("", "'" + file.string() + "' cannot be read: " + spectral::pictureReason(input->geterror()));
+    throw value.error("",
+                      "'" + spectral::utf8(file) + "' cannot be read: " + spectral::pictureReason(input->geterror()));
   }
   for (const float v : pixels.values) {
     if (!std::isfinite(v)) {
-      throw value.error("", "'" + file.string() + "' has a value that is no finite number; mend the picture");
+      throw value.error("", "'" + spectral::utf8(file) + "' has a value that is no finite number; mend the picture");
     }
   }
   return pixels;

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "scene_file/fingerprint.h"
 #include "scene_file/scene_film.h"
@@ -34,7 +35,7 @@ std::uint64_t fingerprintOf(const std::string& text, const Scene& scene) {
 }  // namespace
 
 Scene readScene(const std::filesystem::path& file, const spectral::DataLibrary& library) {
-  return parseScene(spectral::readTextFile(file), file.string(), file.parent_path(), library);
+  return parseScene(spectral::readTextFile(file), spectral::utf8(file), file.parent_path(), library);
 }
 
 Scene parseScene(const std::string& text, const std::string& where, const std::filesystem::path& folder,

@@ -6,6 +6,7 @@
 
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/optical_constants.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectrum.h"
 #include "metamer/spectral/uplift.h"
 
@@ -186,7 +187,7 @@ DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
     const auto file = section.find("file");
     samples = lookUp(*file, [&] {
       // A file without folder would be taken for a name.
-      const std::string relative = (m_folder / file->text()).string();
+      const std::string relative = spectral::utf8(m_folder / spectral::pathOf(file->text()));
       const std::string path = relative.find('/') == std::string::npos ? "./" + relative : relative;
       switch (use) {
         case Use::Emission:
@@ -194,9 +195,11 @@ DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
         case Use::Transmittance:
           return m_library.filter(path).onDomain();
         case Use::Refraction:
-          return spectral::readOpticalConstant(path, spectral::OpticalConstant::Refraction).onDomain();
+          return spectral::readOpticalConstant(spectral::pathOf(path), spectral::OpticalConstant::Refraction)
+              .onDomain();
         case Use::Extinction:
-          return spectral::readOpticalConstant(path, spectral::OpticalConstant::Extinction).onDomain();
+          return spectral::readOpticalConstant(spectral::pathOf(path), spectral::OpticalConstant::Extinction)
+              .onDomain();
         case Use::Reflectance:
           break;
       }

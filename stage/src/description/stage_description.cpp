@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/yaml_section.h"
 #include "metamer/stage/chart_grid.h"
@@ -70,7 +71,7 @@ class StageReader {
   }
 
   std::filesystem::path file(const std::string& text) const {
-    const std::filesystem::path path(text);
+    const std::filesystem::path path = spectral::pathOf(text);
     return path.is_absolute() ? path : m_folder / path;
   }
 
@@ -226,12 +227,12 @@ StageDescription readStage(const std::filesystem::path& file) {
   std::error_code none;
   const auto size = std::filesystem::file_size(file, none);
   if (!none && std::filesystem::is_regular_file(file, none) && size > kLargestStageBytes) {
-    throw InputError(file.string(), "size", std::to_string(size),
+    throw InputError(spectral::utf8(file), "size", std::to_string(size),
                      "is more than a stage file may have (" + std::to_string(kLargestStageBytes) + " bytes)");
   }
-  StageDescription stage = parseStage(spectral::readTextFile(file), file.string(), file.parent_path());
+  StageDescription stage = parseStage(spectral::readTextFile(file), spectral::utf8(file), file.parent_path());
   if (stage.name.empty()) {
-    stage.name = file.stem().string();
+    stage.name = spectral::utf8(file.stem());
   }
   return stage;
 }

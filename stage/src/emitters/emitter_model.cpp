@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
@@ -110,10 +111,10 @@ std::vector<Emitter> emittersFrom(const std::string& text, const spectral::DataL
   if (auto model = emitterFromModel(text)) {
     return {*std::move(model)};
   }
-  if (!spectral::hasSpectralExtension(text)) {
+  if (!spectral::hasSpectralExtension(spectral::pathOf(text))) {
     return {{library.illuminant(text, folder), false}};
   }
-  const std::filesystem::path file(text);
+  const std::filesystem::path file = spectral::pathOf(text);
   std::vector<Emitter> emitters;
   for (Spectrum& spectrum : spectral::readSpectralFile(file.is_absolute() ? file : folder / file,
                                                        spectral::SpectralQuantity::SpectralPowerDistribution)) {
