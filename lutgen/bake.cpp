@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/ocio/bake.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "commands.h"
 #include "metamer/ocio/log_cube.h"
+#include "metamer/ocio/shader_bake.h"
 #include "metamer/ocio/shaper.h"
 #include "metamer/ocio/working_space.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/text.h"
 #include "overrides.h"
 #include "progress.h"
 #include "run.h"
@@ -89,6 +94,61 @@ void report(const ocio::Certificate& certificate) {
   }
 }
 
+/// Every extension, with its formats' names where it has several: ".ctf, .cube (iridas_cube, resolve_cube)".
+std::string allExtensions() {
+  std::vector<std::pair<std::string, std::vector<std::string>>> extensions;
+  const auto add = [&](const std::string& extension, const std::string& name) {
+    const auto known =
+        std::find_if(extensions.begin(), extensions.end(), [&](const auto& entry) { return entry.first == extension; });
+    (known == extensions.end() ? extensions.emplace_back(extension, std::vector<std::string>{}) : *known)
+        .second.push_back(name);
+  };
+  for (const ocio::LutFormat& format : ocio::lutFormats()) {
+    add(format.extension, format.name);
+  }
+  for (const ocio::ShaderFormat& format : ocio::shaderFormats()) {
+    add(format.extension, format.name);
+  }
+  std::string text;
+  for (const auto& [extension, names] : extensions) {
+    text += (text.empty() ? "" : ", ") + extension;
+    for (std::size_t k = 0; names.size() > 1 && k < names.size(); ++k) {
+      text += (k == 0 ? " (" : ", ") + names[k] + (k + 1 == names.size() ? ")" : "");
+    }
+  }
+  return text;
+}
+
+/// @throws spectral::InputError where the extension is no format's, shaders' neither
+const ocio::LutFormat& lutFormatOf(const BakeArguments& arguments) {
+  if (arguments.toStdout) {
+    return ocio::lutFormatNamed(arguments.format);
+  }
+  const auto& formats = ocio::lutFormats();
+  const std::string extension = spectral::lowerCase(spectral::utf8(spectral::pathOf(arguments.output).extension()));
+  if (arguments.format.empty() && std::none_of(formats.begin(), formats.end(), [&](const ocio::LutFormat& format) {
+        return format.extension == extension;
+      })) {
+    throw spectral::InputError(arguments.output, "extension", extension, "unknown; the formats are " + allExtensions());
+  }
+  return ocio::lutFormat(spectral::pathOf(arguments.output), arguments.format);
+}
+
+void convert(const BakeArguments& arguments, const ocio::LutFormat& format) {
+  if (!arguments.toStdout && spectral::isStream(spectral::pathOf(arguments.output))) {
+    standardOutput();
+  }
+  const std::vector<std::filesystem::path> luts(arguments.luts.begin(), arguments.luts.end());
+  const std::string text = ocio::convertedLuts(luts, format, arguments.size, arguments.shaperSize);
+  if (arguments.toStdout) {
+    standardOutput() << text;
+  } else {
+    spectral::writeWholeFile(spectral::pathOf(arguments.output), text);
+  }
+  summarise((arguments.toStdout ? format.name : arguments.output) + ": " + std::to_string(luts.size()) +
+            (luts.size() == 1 ? " LUT file" : " LUT files") + " written anew");
+}
+
 void bake(const BakeArguments& arguments) {
   if (arguments.inverse) {
     throw spectral::InputError("", "inverse", "",
@@ -105,22 +165,14 @@ void bake(const BakeArguments& arguments) {
   if (!arguments.toStdout) {
     spectral::requireWritable(spectral::pathOf(arguments.output));
   }
-  const ocio::LutFormat& format = arguments.toStdout
-                                      ? ocio::lutFormatNamed(arguments.format)
-                                      : ocio::lutFormat(spectral::pathOf(arguments.output), arguments.format);
+  const ocio::ShaderFormat* const shader = ocio::findShaderFormat(spectral::pathOf(arguments.output), arguments.format);
+  const ocio::LutFormat* const format = shader != nullptr ? nullptr : &lutFormatOf(arguments);
+  const std::string& formatName = shader != nullptr ? shader->name : format->name;
   if (!arguments.luts.empty()) {
-    if (!arguments.toStdout && spectral::isStream(spectral::pathOf(arguments.output))) {
-      standardOutput();
+    if (shader != nullptr) {
+      throw CLI::ValidationError("--lut", "is nothing for " + shader->extension + ", which holds a recipe's own map");
     }
-    const std::vector<std::filesystem::path> luts(arguments.luts.begin(), arguments.luts.end());
-    const std::string text = ocio::convertedLuts(luts, format, arguments.size, arguments.shaperSize);
-    if (arguments.toStdout) {
-      standardOutput() << text;
-    } else {
-      spectral::writeWholeFile(spectral::pathOf(arguments.output), text);
-    }
-    summarise((arguments.toStdout ? format.name : arguments.output) + ": " + std::to_string(luts.size()) +
-              (luts.size() == 1 ? " LUT file" : " LUT files") + " written anew");
+    convert(arguments, *format);
     return;
   }
   const auto library = spectral::DataLibrary::openDefault();
@@ -129,14 +181,17 @@ void bake(const BakeArguments& arguments) {
   if (arguments.toStdout || spectral::isStream(spectral::pathOf(arguments.output))) {
     standardOutput();  // no word may come between
   }
-  const std::string what = arguments.toStdout ? format.name : arguments.output;
+  const std::string what = arguments.toStdout ? formatName : arguments.output;
   const ocio::Certificate certificate = [&] {
     Progress progress(what);
     options.progress = [&progress](double share) { progress.show(share); };
     if (!arguments.toStdout) {
-      return ocio::bakeFile(recipe, library, spectral::pathOf(arguments.output), format.name, options);
+      const std::filesystem::path output = spectral::pathOf(arguments.output);
+      return shader != nullptr ? ocio::bakeShaderFile(recipe, library, output, *shader, options)
+                               : ocio::bakeFile(recipe, library, output, formatName, options);
     }
-    ocio::BakedText baked = ocio::bakeText(recipe, library, format.name, options);
+    ocio::BakedText baked = shader != nullptr ? ocio::bakeShaderText(recipe, library, *shader, options)
+                                              : ocio::bakeText(recipe, library, formatName, options);
     standardOutput() << baked.text;
     return std::move(baked.certificate);
   }();
@@ -151,7 +206,7 @@ void bake(const BakeArguments& arguments) {
 
 void addBake(CLI::App& application) {
   CLI::App* command =
-      application.add_subcommand("bake", "Write a transform as a LUT file, with its certificate beside it");
+      application.add_subcommand("bake", "Write a transform as a LUT or shader file, with its certificate beside it");
   const auto arguments = std::make_shared<BakeArguments>();
   CLI::Option* recipe =
       command->add_option("RECIPE", arguments->recipe, "Recipe file; without one, the options below say it all");
@@ -159,6 +214,10 @@ void addBake(CLI::App& application) {
   command->add_flag("--stdout", arguments->toStdout, "Write to standard output, without a certificate file");
   std::vector<std::string> formats;
   for (const ocio::LutFormat& format : ocio::lutFormats()) {
+    formats.push_back(format.name);
+    formats.push_back(format.extension.substr(1));
+  }
+  for (const ocio::ShaderFormat& format : ocio::shaderFormats()) {
     formats.push_back(format.name);
     formats.push_back(format.extension.substr(1));
   }

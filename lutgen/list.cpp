@@ -6,6 +6,7 @@
 #include "commands.h"
 #include "light_figures.h"
 #include "metamer/ocio/lut_writer.h"
+#include "metamer/ocio/shader_bake.h"
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral/input_error.h"
 
@@ -43,7 +44,15 @@ nlohmann::ordered_json entriesOf(const std::string& kind, const std::string& wor
       entries.push_back({{"name", format.name},
                          {"extension", format.extension},
                          {"holds", format.use},
-                         {"shaper", format.holdsShaperCurve}});
+                         {"shaper", format.holdsShaperCurve},
+                         {"shader", false}});
+    }
+    for (const ocio::ShaderFormat& format : ocio::shaderFormats()) {
+      entries.push_back({{"name", format.name},
+                         {"extension", format.extension},
+                         {"holds", format.use},
+                         {"shaper", false},
+                         {"shader", true}});
     }
     return entries;
   }

@@ -298,8 +298,20 @@ class Bake(LutgenTest):
             with self.subTest(arguments):
                 self.assertFails("bake", *arguments, "-o", "out.cube", says=says)
 
+    def test_shader_files(self):
+        self.assertWorks("bake", *DAY_TO_TUNGSTEN, "-o", "a.metal")
+        self.assertIn("metamerMapPixels", (self.folder / "a.metal").read_text(encoding="utf-8"))
+        certificate = json.loads((self.folder / "a.metal.json").read_text(encoding="utf-8"))
+        self.assertEqual(certificate["transform"]["representation"], "homogeneous map")
+        text = self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--stdout", "--format", "glsl", "--quiet")
+        self.assertIn("#version 430", text)
+        for options, word in ((["--size", "33"], "size"), (["--shaper", "LogC3"], "shaper"), (["--sampled"], "sampled")):
+            self.assertFails("bake", *DAY_TO_TUNGSTEN, *options, "-o", "b.cl", says=[word, ".cl", "leave it out"])
+        self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", "b.cl", "--format", "glsl", says=["*.glsl"])
+        self.assertFalse((self.folder / "b.cl").exists())
+
     def test_unknown_extension_and_format(self):
-        self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", "a.png", says=["'.png'", "resolve_cube"])
+        self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", "a.png", says=["'.png'", "resolve_cube", ".glsl"])
         self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", "a.clf", "--format", "resolve_cube", says=["*.cube"])
 
     def test_places_that_cannot_be_written(self):

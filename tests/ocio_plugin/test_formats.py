@@ -34,8 +34,8 @@ def lutgen(*arguments):
 
 
 def formats():
-    """All that `lutgen list formats` prints, but for curves, which hold no look."""
-    return [f for f in json.loads(lutgen("list", "formats", "--json")) if f["name"] != "spi1d"]
+    """All tables that `lutgen list formats` prints, but for curves, which hold no look."""
+    return [f for f in json.loads(lutgen("list", "formats", "--json")) if f["name"] != "spi1d" and not f["shader"]]
 
 
 def lab(rgb):

@@ -54,6 +54,7 @@ int tableSize(const BakeOptions& options, Representation representation, const L
   switch (representation) {
     case Representation::Identity:
     case Representation::Matrix:
+    case Representation::HomogeneousMap:
       return 0;
     case Representation::LogCube:
       // A CLF stands for linear pixels of any exposure that its curve holds: finer than the cube of a grading program.

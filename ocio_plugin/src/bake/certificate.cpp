@@ -102,6 +102,8 @@ Policy policyOf(const Certificate& certificate) {
           "kept, as the engine has them: no colour is clipped",
           std::to_string(kChainStops) + " stops below 0.18 and darker: to black in proportion; as far above: clipped",
           "a finite colour or NaN, in that pixel alone"};
+    case Representation::HomogeneousMap:
+      return {"kept, as the engine has them: no colour is clipped", "none: any exposure", "kept, in that pixel alone"};
   }
   return {};
 }

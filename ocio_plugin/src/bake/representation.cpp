@@ -16,6 +16,8 @@ std::string nameOf(Representation representation) {
       return "log cube";
     case Representation::ExposureInvariantChain:
       return "exposure-invariant chain";
+    case Representation::HomogeneousMap:
+      return "homogeneous map";
   }
   return {};
 }
@@ -33,6 +35,9 @@ OCIO::GroupTransformRcPtr engineOperators(Representation representation, const s
       return exposureInvariantChain(spec, transform, {.size = size});
     case Representation::LogCube:
       throw spectral::InputError("", "representation", nameOf(representation), "works on a signal, not on linear RGB");
+    case Representation::HomogeneousMap:
+      throw spectral::InputError("", "representation", nameOf(representation),
+                                 "is no OCIO operators; write a shader file");
   }
   return group;
 }

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "sip/device/device_fixture.h"
+#include "sip/device/egl_device.h"
 #include "sip/device/metal_text.h"
 #include "sip/device/opencl_device.h"
 
@@ -108,6 +109,41 @@ TEST(DeviceKernelsTest, OpenClHasTheBitsOfTheMap) {
 TEST(DeviceKernelsTest, MetalTextHasTheBitsOfTheMap) {
   expectTheBitsOfTheMap(pixelCount(), runMetalMap);
   expectAffine(runMetalAffine);
+}
+
+TEST(DeviceKernelsTest, GlslIsWithinALastPlaceOfTheMap) {
+  std::string reason;
+  const auto device = EglDevice::find(reason);
+  if (!device) {
+    GTEST_SKIP() << reason << ": the GLSL text is not run; install libegl1 and libgl1-mesa-dri";
+  }
+  const std::string text = deviceText(DeviceDialect::Glsl, DeviceKernel::Map);
+  std::vector<double> off;
+  std::size_t same = 0;
+  for (const DeviceCase& each : deviceCases()) {
+    std::vector<float> pixels = pixelsOfEveryKind(20'000, 17);
+    std::vector<float> expected(pixels.size());
+    each.map.apply(pixels, expected);
+    const std::vector<float> given = device->run(text, each.tables, pixels);
+    for (std::size_t i = 0; i < pixels.size(); i += 4) {
+      const Eigen::Map<const Eigen::Vector3f> pixel(pixels.data() + i);
+      const Eigen::Map<const Eigen::Vector3f> result(given.data() + i);
+      const Eigen::Map<const Eigen::Vector3f> wanted(expected.data() + i);
+      const float size = pixel.cwiseAbs().maxCoeff();
+      // What lies at the ends of all numbers a GLSL device may flush.
+      if (pixel.allFinite() && size > 1e-30F && size < 1e30F) {
+        ASSERT_TRUE(result.allFinite()) << each.name << ", pixel " << i / 4;
+        off.push_back((result - wanted).cast<double>().cwiseAbs().maxCoeff() / size);
+        same += result == wanted ? 1 : 0;
+      }
+      EXPECT_EQ(given[i + 3], pixels[i + 3]);
+    }
+  }
+  std::sort(off.begin(), off.end());
+  const double p999 = off[off.size() * 999 / 1000];
+  std::printf("[ device ] %s: %.4f of pixels to the bit; off by %.2g of their size at p99.9, %.2g at most\n",
+              device->name().c_str(), static_cast<double>(same) / static_cast<double>(off.size()), p999, off.back());
+  EXPECT_LE(p999, 1e-5);
 }
 
 TEST(DeviceKernelsTest, HalfAPixelIsRefused) {

@@ -48,9 +48,11 @@ struct Certificate {
   int bandCount = 0;                      ///< of the engine that made it
   std::string gamut;                      ///< working space of the probes
   sip::ErrorProtocol::Options probes;
-  sip::ErrorProtocol::Report error;  ///< CIEDE2000 against 401 bands, through OCIO's CPU processor
-  PixelProtocol::Report pixels;      ///< against the engine that made it; of no pixels where it was not measured
-  double brightening = 0;            ///< the engine's luminance out over in at saturated lights, over white's, at most
+  /// CIEDE2000 against 401 bands, through OCIO's CPU processor; of a shader file through its kernel's text and the
+  /// tables read from the file, compiled for the processor.
+  sip::ErrorProtocol::Report error;
+  PixelProtocol::Report pixels;  ///< against the engine that made it; of no pixels where it was not measured
+  double brightening = 0;        ///< the engine's luminance out over in at saturated lights, over white's, at most
   sip::SpectralTransform::Diagnostics diagnostics;
   std::vector<sip::HeldOutSet>
       surfaces;        ///< against the truth, beside simpler transforms; empty where it was not asked
