@@ -94,18 +94,22 @@ std::string channelOfWavelength(double nm, SpectralQuantity quantity) {
   return std::string(prefixOf(quantity)) + "." + number + "nm";
 }
 
-std::vector<Spectrum> readSpectralPicture(const std::string& file, const std::string& place,
-                                          SpectralQuantity quantity) {
+std::vector<ChannelValue> readPictureChannels(const std::string& file, const std::string& place,
+                                              const std::function<bool(const std::string& channel)>& isWanted) {
   if (!channelReader()) {
     throw InputError(file, "extension", ".exr",
                      "pictures are read by the programs lutgen and spectral_ref alone; give the spectrum as CSV here");
   }
+  return channelReader()(file, placeOf(place, file), isWanted);
+}
+
+std::vector<Spectrum> readSpectralPicture(const std::string& file, const std::string& place,
+                                          SpectralQuantity quantity) {
   if (quantity == SpectralQuantity::Sensitivity) {
     throw InputError(file, "quantity", "sensitivity", "is not what a picture holds; give a table");
   }
-  std::vector<ChannelValue> channels = channelReader()(file, placeOf(place, file), [&](const std::string& channel) {
-    return channelWavelengthNm(channel, quantity).has_value();
-  });
+  const std::vector<ChannelValue> channels = readPictureChannels(
+      file, place, [&](const std::string& channel) { return channelWavelengthNm(channel, quantity).has_value(); });
   if (channels.size() < 2) {
     const std::string prefix = prefixOf(quantity);
     throw InputError(file, "channels", "",

@@ -31,6 +31,12 @@ using PictureChannelReader =
 /// is a spectral file (readSpectralFile). Without one such files are refused.
 void setPictureChannelReader(PictureChannelReader reader);
 
+/// Reads by that reader the channels of FILE whose names `isWanted`.
+/// @param place  "x,y" of a pixel, or "" for the mean of all
+/// @throws InputError: no reader, a place that is none, what the reader refuses
+std::vector<ChannelValue> readPictureChannels(const std::string& file, const std::string& place,
+                                              const std::function<bool(const std::string& channel)>& isWanted);
+
 /// Wavelength of a channel in the layout of Fichet et al., JCGT 2021: "S0.550,000000nm" of a light's radiance,
 /// "T.550,000000nm" of a reflectance or transmittance; layers ("left.S0.550nm"), units of m, um or Hz with their
 /// prefixes. Empty: another channel. S1 to S3, polarisation, are others.
