@@ -33,40 +33,44 @@ class PathIntegrator {
   Lanes<C> radiance(Ray ray, const WavelengthSet<C>& wavelengths, PathRandom& random,
                     const Resampling& resampling) const {
     Path path;
+    WavelengthSet<C> lanes = wavelengths;  // that the path carries here: fluorescent surfaces shift them
     for (int edge = 1;; ++edge) {
       Hit hit;
-      const Passage passage = throughGels(m_prepared, ray, hit, path.throughput, wavelengths);
+      const Passage passage = throughGels(m_prepared, ray, hit, path.throughput, lanes);
       if (passage == Passage::Absorbed) {
         break;
       }
       if (passage == Passage::Escaped) {
-        addEnvironment(ray, path, wavelengths, resampling);
+        addEnvironment(ray, path, lanes, resampling);
         break;
       }
-      addEmission(ray, hit, path, wavelengths, resampling);
+      addEmission(ray, hit, path, lanes, resampling);
       if (edge >= m_settings.maxDepth) {
         break;
       }
       const Frame frame(hit.normal);
       const Vec3 out = frame.toLocal(-ray.direction);
-      const auto bsdf =
-          m_prepared.materials.template bsdf<C, kDispersive>(hit.material, m_prepared.spectra, wavelengths);
+      auto bsdf = m_prepared.materials.template bsdf<C, kDispersive>(hit.material, m_prepared.spectra, lanes);
       if (bsdf.isBlack(out)) {
         break;
       }
       random.vertex(static_cast<std::uint32_t>(edge - 1));
+      if (const FluorescenceTable* fluorescence = m_prepared.materials.fluorescence(hit.material)) {
+        bsdf.setDiffuseReflectance(fluorescence->template stayOrShift<C>(random.fluorescence(), path.throughput,
+                                                                         bsdf.diffuseReflectance(), lanes));
+      }
       bool isResampled = false;
       if constexpr (Resampling::kResamples) {
         path.resampled = nullptr;
         if (edge == 1 && m_prepared.materials.isDiffuse(hit.material)) {
           isResampled = true;
-          if (!addResampledLight(hit, bsdf, random, path, wavelengths, resampling)) {
+          if (!addResampledLight(hit, bsdf, random, path, lanes, wavelengths, resampling)) {
             break;
           }
         }
       }
       if (!isResampled && !bsdf.isDelta() && !m_prepared.lights.empty()) {
-        addDirectLight(hit, frame, out, bsdf, random.light(m_prepared.lights), path, wavelengths);
+        addDirectLight(hit, frame, out, bsdf, random.light(m_prepared.lights), path, lanes);
       }
       if (!scatter(hit, frame, out, bsdf, random, path, ray)) {
         break;
@@ -182,24 +186,26 @@ class PathIntegrator {
   }
 
   /// The same with the point of a reservoir: f W (4.3.3), with the lanes weighed by (4.21) where the hero chose alone.
+  /// @param seen    the wavelengths that the film sees, whatever the path has been shifted to
   /// @return  false where nothing is left for the path to find
   template <typename Bsdf, typename Resampling>
   bool addResampledLight(const Hit& hit, const Bsdf& bsdf, const PathRandom& random, Path& path,
-                         const WavelengthSet<C>& wavelengths, const Resampling& resampling) const {
+                         const WavelengthSet<C>& wavelengths, const WavelengthSet<C>& seen,
+                         const Resampling& resampling) const {
     const Lanes<C> reflected = path.throughput * bsdf.diffuseReflectance();
-    const Reservoir<C>& reservoir = resampling.fill(hit, reflected, wavelengths, random);
+    const Reservoir<C>& reservoir = resampling.fill(hit, reflected, wavelengths, seen, random);
     path.resampled = &reservoir.domain;
     if (reservoir.contribution > 0.0F) {
-      const auto seen = resampling.sampler.look(reservoir.point, reservoir.domain);
-      Lanes<C> arriving = reflected * m_prepared.lights.radiance(seen.light.emitter, seen.light.element,
+      const auto point = resampling.sampler.look(reservoir.point, reservoir.domain);
+      Lanes<C> arriving = reflected * m_prepared.lights.radiance(point.light.emitter, point.light.element,
                                                                  m_prepared.spectra, wavelengths);
-      float weight = seen.geometry * reservoir.contribution;
+      float weight = point.geometry * reservoir.contribution;
       if (resampling.isHero) {
         const float sum = arriving.sum();
         weight *= sum > 0.0F ? static_cast<float>(C) * arriving[0] / sum : 0.0F;
       }
       if (weight > 0.0F &&
-          gelsTransmit(m_prepared, shadowRay(hit, seen.light), seen.light.emitter, arriving, wavelengths)) {
+          gelsTransmit(m_prepared, shadowRay(hit, point.light), point.light.emitter, arriving, wavelengths)) {
         path.radiance += arriving * weight;
       }
     }

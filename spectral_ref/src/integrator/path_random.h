@@ -35,10 +35,17 @@ class PathRandom {
   float candidate() const { return m_set[m_offset + 2]; }
   Sampler::Candidates candidates(unsigned log2Count) const { return m_sampler.candidates(kCandidateSet, log2Count); }
   float lobe() const { return m_vertex > 0 ? m_set[5] : m_sampler.random(0); }
+  /// What a fluorescent surface does: keep the lanes or shift them, and where to. Numbers of their own, so that no
+  /// other surface's change.
+  Eigen::Vector2f fluorescence() const {
+    const Sampler::Set set = m_sampler.set(kFluorescenceSets + m_vertex);
+    return {set[0], set[1]};
+  }
   float roulette() const { return m_vertex > 0 ? m_set[6] : m_sampler.random(1); }
 
  private:
-  static constexpr std::uint32_t kCandidateSet = 0x63616e64U;  ///< no vertex has this number
+  static constexpr std::uint32_t kCandidateSet = 0x63616e64U;      ///< no vertex has this number
+  static constexpr std::uint32_t kFluorescenceSets = 0x666c0000U;  ///< and from here on
 
   Sampler m_sampler;
   Sampler::Set m_set;

@@ -15,7 +15,7 @@ struct PreparedScene {
   explicit PreparedScene(const Scene& description)
       : scene(description),
         shapes(description),
-        spectra(description.spectra),
+        spectra(description),
         materials(description),
         lights(description, shapes),
         camera(description.camera, description.film) {}

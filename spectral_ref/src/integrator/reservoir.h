@@ -20,7 +20,7 @@ struct ReservoirDomain {
   std::array<float, 3> place{};
   std::array<float, 3> up{};
   std::array<float, C> factor{};  ///< of each lane's radiance in the target
-  std::array<std::uint16_t, C> cell{};
+  std::array<std::int16_t, C> cell{};
   std::uint32_t block = 0;  ///< whose light cut it draws candidates from
 
   Vec3 position() const { return {place[0], place[1], place[2]}; }

@@ -178,8 +178,8 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
     int y;
     std::uint64_t sample;
     const Reservoir<C>& fill(const Hit& hit, const Lanes<C>& reflected, const WavelengthSet<C>& wavelengths,
-                             const PathRandom& random) const {
-      return tracer.fill(*this, hit, reflected, wavelengths, random);
+                             const WavelengthSet<C>& seen, const PathRandom& random) const {
+      return tracer.fill(*this, hit, reflected, wavelengths, seen, random);
     }
   };
 
@@ -217,18 +217,18 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
   }
 
   ReservoirDomain<C> domainOf(const Resampling& at, const Hit& hit, const Lanes<C>& reflected,
-                              const WavelengthSet<C>& wavelengths) const {
+                              const WavelengthSet<C>& wavelengths, const WavelengthSet<C>& seen) const {
     ReservoirDomain<C> domain;
     domain.block = static_cast<std::uint32_t>(blockOf(at.x, at.y));
     domain.place = {hit.position.x(), hit.position.y(), hit.position.z()};
     domain.up = {hit.normal.x(), hit.normal.y(), hit.normal.z()};
     for (int k = 0; k < C; ++k) {
       const auto lane = static_cast<std::size_t>(k);
-      domain.cell[lane] = static_cast<std::uint16_t>(wavelengths.cell[lane]);
+      domain.cell[lane] = static_cast<std::int16_t>(wavelengths.cell[lane]);
       // Lanes: luminance, and a little of everything, so that a point is lost to no lane.
       constexpr float kInvisibleShare = 0.05F / static_cast<float>(kCells);
-      const float luminance = std::abs(this->m_context.sensor.luminance(wavelengths.cell[lane])) + kInvisibleShare;
-      domain.factor[lane] = reflected[k] * luminance * wavelengths.weight[k];
+      const float luminance = std::abs(this->m_context.sensor.luminance(seen.cell[lane])) + kInvisibleShare;
+      domain.factor[lane] = reflected[k] * luminance * seen.weight[k];
       if (at.isHero) {
         domain.factor[lane] = k == 0 ? reflected[0] : 0.0F;
       }
@@ -243,10 +243,11 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
   /// over progressions it only takes weight from what is new. Nor does a neighbour count more than the fresh
   /// candidates.
   const Reservoir<C>& fill(const Resampling& at, const Hit& hit, const Lanes<C>& reflected,
-                           const WavelengthSet<C>& wavelengths, const PathRandom& random) {
+                           const WavelengthSet<C>& wavelengths, const WavelengthSet<C>& seen,
+                           const PathRandom& random) {
     const std::size_t pixel = this->pixelOf(at.x, at.y);
     Reservoir<C>& own = m_reservoirs[at.sample % 2][pixel];
-    own = m_sampler.fresh(domainOf(at, hit, reflected, wavelengths),
+    own = m_sampler.fresh(domainOf(at, hit, reflected, wavelengths, seen),
                           random.candidates(ReservoirSampler<C>::kLog2Candidates), random.candidate());
     if (at.sample % TileTracer::kEpoch == 0) {
       return own;

@@ -47,4 +47,20 @@ spectral::DomainSamples worthOfLights(const Scene& scene) {
   return sum;
 }
 
+spectral::ExcitationSamples excitingLight(const Scene& scene) {
+  spectral::ExcitationSamples mean = spectral::ExcitationSamples::Zero();
+  const std::set<SpectrumId> lights = emittedSpectra(scene);
+  for (const SpectrumId id : lights) {
+    spectral::ExcitationSamples light = spectral::ExcitationSamples::Zero();
+    if (id < scene.ultraviolet.size()) {
+      light.head<spectral::kDomainInExcitation>() = scene.ultraviolet[id];
+    }
+    light.tail<spectral::kDomainSize>() = scene.spectra[id];
+    if (const double total = light.sum(); total > 0) {
+      mean += light / (total * static_cast<double>(lights.size()));
+    }
+  }
+  return mean;
+}
+
 }  // namespace metamer::spectral_ref

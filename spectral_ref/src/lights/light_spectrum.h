@@ -11,4 +11,7 @@ namespace metamer::spectral_ref {
 /// light has counts alike, whatever its power: which of them lights a pixel is not known. Zero without lights.
 spectral::DomainSamples worthOfLights(const Scene& scene);
 
+/// Mean of the lights' spectra, each on the scale that makes its sum 1; 0 without any.
+spectral::ExcitationSamples excitingLight(const Scene& scene);
+
 }  // namespace metamer::spectral_ref

@@ -77,7 +77,7 @@ class LightTable {
 
   /// Sum over lanes of an entry's radiance times a factor.
   template <int C>
-  float response(std::uint32_t entry, const SpectrumTables& spectra, const std::array<std::uint16_t, C>& cells,
+  float response(std::uint32_t entry, const SpectrumTables& spectra, const std::array<std::int16_t, C>& cells,
                  const std::array<float, C>& factors) const {
     const Emitter& source = m_emitters[m_emitterOfEntry[entry]];
     const auto ofSpectrum = [&](SpectrumId id) {

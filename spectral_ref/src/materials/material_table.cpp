@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "materials/material_table.h"
 
+#include "lights/light_spectrum.h"
+
 namespace metamer::spectral_ref {
 namespace {
 
@@ -30,6 +32,10 @@ std::vector<float> meanFresnel(const Scene& scene, const Material& material) {
 }  // namespace
 
 MaterialTable::MaterialTable(const Scene& scene) {
+  std::vector<std::shared_ptr<const FluorescenceTable>> fluorescences;
+  for (const spectral::FluorescentSamples& surface : scene.fluorescences) {
+    fluorescences.push_back(std::make_shared<FluorescenceTable>(surface, excitingLight(scene)));
+  }
   for (const Material& material : scene.materials) {
     PreparedMaterial prepared;
     prepared.kind = material.kind;
@@ -51,6 +57,9 @@ MaterialTable::MaterialTable(const Scene& scene) {
         break;
       case Material::Kind::Gel:
         m_hasGels = true;
+        break;
+      case Material::Kind::Fluorescent:
+        prepared.fluorescence = fluorescences[material.fluorescence];
         break;
       case Material::Kind::Black:
       case Material::Kind::Diffuse:

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "materials/bsdf.h"
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
+#include "materials/fluorescence_table.h"
 #include "metamer/spectral_ref/scene.h"
 #include "wavelengths/lanes.h"
 
@@ -24,6 +27,7 @@ struct PreparedMaterial {
   float roughness = 0;
   GgxEnergy energy;
   std::vector<float> perCell;  ///< conductor: mean Fresnel reflectance; dielectric: index
+  std::shared_ptr<const FluorescenceTable> fluorescence;
 };
 
 /// The BSDF at a point for the wavelengths of a path, whichever kind it is.
@@ -34,6 +38,7 @@ class Bsdf {
       : m_kind(material.kind) {
     switch (m_kind) {
       case Material::Kind::Diffuse:
+      case Material::Kind::Fluorescent:
         m_diffuse.reflectance = spectra.at(material.colour, wavelengths);
         break;
       case Material::Kind::RoughConductor:
@@ -60,6 +65,7 @@ class Bsdf {
   bool isBlack(const Vec3& out) const {
     switch (m_kind) {
       case Material::Kind::Diffuse:
+      case Material::Kind::Fluorescent:
       case Material::Kind::RoughConductor:
         return out.z() <= 0.0F;
       case Material::Kind::SmoothDielectric:
@@ -73,6 +79,8 @@ class Bsdf {
   }
   bool isDelta() const { return m_kind == Material::Kind::SmoothDielectric; }
   const Lanes<C>& diffuseReflectance() const { return m_diffuse.reflectance; }
+  /// Of a fluorescent surface, once it is chosen what becomes of the lanes.
+  void setDiffuseReflectance(const Lanes<C>& reflectance) { m_diffuse.reflectance = reflectance; }
 
   /// Directions in the frame of the surface, both away from it.
   BsdfValue<C, kDispersive> evaluate(const Vec3& out, const Vec3& in) const {
@@ -103,7 +111,9 @@ class Bsdf {
   static Lanes<C> fromCells(const PreparedMaterial& material, const WavelengthSet<C>& wavelengths) {
     Lanes<C> values;
     for (int k = 0; k < C; ++k) {
-      values[k] = material.perCell[static_cast<std::size_t>(wavelengths.cell[static_cast<std::size_t>(k)])];
+      // In the ultraviolet glass and metal are as at 380 nm.
+      values[k] =
+          material.perCell[static_cast<std::size_t>(std::max(wavelengths.cell[static_cast<std::size_t>(k)], 0))];
     }
     return values;
   }
@@ -123,7 +133,15 @@ class MaterialTable {
                             const WavelengthSet<C>& wavelengths) const {
     return {m_materials[material], spectra, wavelengths};
   }
-  bool isDiffuse(std::uint32_t material) const { return m_materials[material].kind == Material::Kind::Diffuse; }
+  /// Whether all light is given back as Lambert's law says, at its own wavelength or another.
+  bool isDiffuse(std::uint32_t material) const {
+    return m_materials[material].kind == Material::Kind::Diffuse ||
+           m_materials[material].kind == Material::Kind::Fluorescent;
+  }
+  /// Null where the material keeps wavelengths.
+  const FluorescenceTable* fluorescence(std::uint32_t material) const {
+    return m_materials[material].fluorescence.get();
+  }
   bool hasGels() const { return m_hasGels; }
   bool isGel(std::uint32_t material) const { return m_materials[material].kind == Material::Kind::Gel; }
   SpectrumId gelTransmittance(std::uint32_t material) const { return m_materials[material].colour; }

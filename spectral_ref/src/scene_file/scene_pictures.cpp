@@ -156,7 +156,7 @@ EmitterPicture spectralPicture(const Pixels& pixels, const std::vector<std::pair
     hat[k] = 1.0;
     const spectral::Spectrum light("channel", spectral::SpectralQuantity::SpectralPowerDistribution, wavelengths,
                                    std::move(hat));
-    picture.emitters.push_back(spectra.add(light.onDomain()));
+    picture.emitters.push_back(spectra.add(spectral::onExcitation(light)));
   }
   const std::size_t count = static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height);
   picture.drives.reserve(count * channels.size());

@@ -22,6 +22,14 @@ std::uint64_t fingerprintOf(const std::string& text, const Scene& scene) {
   for (const auto& spectrum : scene.spectra) {
     fingerprint.add(spectrum.data(), sizeof(double) * static_cast<std::size_t>(spectrum.size()));
   }
+  if (!scene.fluorescences.empty()) {
+    for (const UltravioletSamples& spectrum : scene.ultraviolet) {
+      fingerprint.add(spectrum.data(), sizeof(double) * static_cast<std::size_t>(spectrum.size()));
+    }
+    for (const spectral::FluorescentSamples& surface : scene.fluorescences) {
+      fingerprint.add(surface.perNm.data(), sizeof(double) * static_cast<std::size_t>(surface.perNm.size()));
+    }
+  }
   for (const EmitterPicture& picture : scene.pictures) {
     fingerprint.add(picture.drives.data(), sizeof(float) * picture.drives.size());
   }

@@ -153,8 +153,8 @@ void readEnvironment(const SceneValue& value, SceneSpectra& spectra, Scene& scen
 }  // namespace
 
 void readShape(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
-  const SceneSection shape(value, {"rectangle", "sphere", "chart", "mesh", "led_wall", "diffuse", "skin", "conductor",
-                                   "dielectric", "gel", "emission"});
+  const SceneSection shape(value, {"rectangle", "sphere", "chart", "mesh", "led_wall", "diffuse", "skin", "fluorescent",
+                                   "conductor", "dielectric", "gel", "emission"});
   int kinds = 0;
   for (const char* kind : {"rectangle", "sphere", "chart", "mesh", "led_wall"}) {
     kinds += shape.find(kind) ? 1 : 0;

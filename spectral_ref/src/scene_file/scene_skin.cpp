@@ -24,9 +24,8 @@ Material readSkin(const SceneValue& value, SceneSpectra& spectra) {
       skin::repaired(skin::SkinModel(spectra.library()).albedo(parameters), prior).cwiseMin(1);
   Material material;
   material.kind = Material::Kind::Diffuse;
-  material.colour = spectra.add(spectral::Spectrum("skin", spectral::SpectralQuantity::Reflectance,
-                                                   skin::skinWavelengths(), {albedo.begin(), albedo.end()})
-                                    .onDomain());
+  material.colour = spectra.add(spectral::onExcitation(
+      {"skin", spectral::SpectralQuantity::Reflectance, skin::skinWavelengths(), {albedo.begin(), albedo.end()}}));
   return material;
 }
 

@@ -7,14 +7,16 @@
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/optical_constants.h"
 #include "metamer/spectral/path_text.h"
+#include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/spectrum.h"
 #include "metamer/spectral/uplift.h"
 
 namespace metamer::spectral_ref {
 namespace {
 
-using spectral::DomainSamples;
+using spectral::ExcitationSamples;
 using spectral::InputError;
+using spectral::onExcitation;
 using spectral::SpectralQuantity;
 using spectral::Spectrum;
 
@@ -26,6 +28,8 @@ SpectralQuantity quantityOf(Use use) {
       return SpectralQuantity::SpectralPowerDistribution;
     case Use::Transmittance:
       return SpectralQuantity::Transmittance;
+    case Use::Excitation:  // zero outside its table, as a sensitivity
+      return SpectralQuantity::Sensitivity;
     case Use::Reflectance:
     case Use::Refraction:  // holds its end values, as a reflectance does
     case Use::Extinction:
@@ -45,8 +49,8 @@ auto lookUp(const SceneValue& value, const Look& look) {
 }
 
 /// The reflectance that a published uplift gives a colour: linear Rec.709, white the perfect reflector under D65.
-DomainSamples uplifted(const SceneValue& rgb, const std::optional<SceneValue>& method,
-                       const spectral::DataLibrary& library) {
+ExcitationSamples uplifted(const SceneValue& rgb, const std::optional<SceneValue>& method,
+                           const spectral::DataLibrary& library) {
   /// What curves miss 0 and 1 by for black and white; all else is the method's own.
   constexpr double kRounding = 2e-3;
   const std::vector<double> colour = rgb.numbers(0.0, 1.0);
@@ -66,7 +70,7 @@ DomainSamples uplifted(const SceneValue& rgb, const std::optional<SceneValue>& m
   for (double& value : values) {
     value = std::clamp(value, 0.0, 1.0);
   }
-  return Spectrum(rgb.field(), SpectralQuantity::Reflectance, uplift->wavelengthsNm(), values).onDomain();
+  return onExcitation(Spectrum(rgb.field(), SpectralQuantity::Reflectance, uplift->wavelengthsNm(), values));
 }
 
 /// Radiance beyond this, or a sum of many such, is beyond single precision's comfort.
@@ -85,9 +89,22 @@ SceneSpectra::SceneSpectra(const std::optional<SceneValue>& section, Scene& scen
   }
 }
 
-SpectrumId SceneSpectra::add(const DomainSamples& samples) {
-  m_scene.spectra.push_back(samples);
+SpectrumId SceneSpectra::add(const ExcitationSamples& samples) {
+  m_scene.spectra.emplace_back(samples.tail<spectral::kDomainSize>());
+  m_scene.ultraviolet.emplace_back(samples.head<spectral::kDomainInExcitation>());
   return static_cast<SpectrumId>(m_scene.spectra.size() - 1);
+}
+
+SpectrumId SceneSpectra::add(const spectral::DomainSamples& samples) {
+  ExcitationSamples all = ExcitationSamples::Zero();
+  all.tail<spectral::kDomainSize>() = samples;
+  return add(all);
+}
+
+ExcitationSamples SceneSpectra::at(SpectrumId id) const {
+  ExcitationSamples samples;
+  samples << m_scene.ultraviolet[id], m_scene.spectra[id];
+  return samples;
 }
 
 SpectrumId SceneSpectra::find(const SceneValue& value, Use use) {
@@ -97,7 +114,7 @@ SpectrumId SceneSpectra::find(const SceneValue& value, Use use) {
     return known->second;
   }
   const auto definition = m_definitions.find(name);
-  DomainSamples samples;
+  ExcitationSamples samples;
   if (definition != m_definitions.end()) {
     samples = read(definition->second, use);
   } else if (value.isNumber()) {
@@ -105,21 +122,28 @@ SpectrumId SceneSpectra::find(const SceneValue& value, Use use) {
   } else {
     samples = fromLibrary(value, name, use);
   }
-  if ((use == Use::Reflectance || use == Use::Transmittance) && samples.maxCoeff() > 1.0) {
-    throw value.error("is above 1 somewhere; a surface cannot give back more light than it gets");
+  auto ultraviolet = samples.head<spectral::kDomainInExcitation>();
+  if (use == Use::Reflectance || use == Use::Transmittance) {
+    if (samples.tail<spectral::kDomainSize>().maxCoeff() > 1.0) {
+      throw value.error("is above 1 somewhere; a surface cannot give back more light than it gets");
+    }
+    // Read where surfaces fluoresce alone: not judged.
+    ultraviolet = ultraviolet.cwiseMax(0.0).cwiseMin(1.0);
+  } else if (use == Use::Refraction || use == Use::Extinction) {
+    ultraviolet.setConstant(samples[spectral::kDomainInExcitation]);
   }
   const SpectrumId id = add(samples);
   m_resolved.emplace(std::pair(name, use), id);
   return id;
 }
 
-DomainSamples SceneSpectra::fromLibrary(const SceneValue& value, const std::string& name, Use use) const {
+ExcitationSamples SceneSpectra::fromLibrary(const SceneValue& value, const std::string& name, Use use) const {
   try {
     if (use == Use::Emission) {
-      return m_library.illuminant(name, m_folder).onDomain();
+      return onExcitation(m_library.illuminant(name, m_folder));
     }
     if (use == Use::Transmittance) {
-      return m_library.filter(name, m_folder).onDomain();
+      return onExcitation(m_library.filter(name, m_folder));
     }
   } catch (const InputError& error) {
     throw value.error("", std::string("no such name under 'spectra:'; ") + error.what());
@@ -132,7 +156,7 @@ DomainSamples SceneSpectra::fromLibrary(const SceneValue& value, const std::stri
   throw value.error("no such name under 'spectra:'" + (near.empty() ? "" : "; did you mean '" + near.front() + "'?"));
 }
 
-DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
+ExcitationSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
   const SceneSection section(definition, {"illuminant", "filter", "density", "reflectance", "sample", "wavelengths",
                                           "values", "constant", "file", "rgb", "uplift", "scale"});
   const auto scaleValue = section.find("scale");
@@ -150,13 +174,13 @@ DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
     throw section.error(
         "", "must have one of illuminant, filter, reflectance, wavelengths (with values), constant, rgb, file");
   }
-  DomainSamples samples;
+  ExcitationSamples samples;
   if (const auto name = section.find("illuminant")) {
     refuse(use != Use::Emission, "is an illuminant");
-    samples = lookUp(*name, [&] { return m_library.illuminant(name->text(), m_folder).onDomain(); });
+    samples = lookUp(*name, [&] { return onExcitation(m_library.illuminant(name->text(), m_folder)); });
   } else if (const auto filter = section.find("filter")) {
     refuse(use != Use::Transmittance, "is a filter");
-    samples = lookUp(*filter, [&] { return m_library.filter(filter->text(), m_folder).onDomain(); });
+    samples = lookUp(*filter, [&] { return onExcitation(m_library.filter(filter->text(), m_folder)); });
     const auto density = section.find("density");
     samples = samples.array().pow(density ? density->number(0.0, 100.0) : 1.0);
   } else if (const auto set = section.find("reflectance")) {
@@ -166,7 +190,7 @@ DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
     std::vector<std::string> names;
     for (const Spectrum& sample : reflectances.samples) {
       if (sample.name() == wanted) {
-        return sample.onDomain() * scale;
+        return onExcitation(sample) * scale;
       }
       names.push_back(sample.name());
     }
@@ -176,7 +200,7 @@ DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
   } else if (const auto wavelengths = section.find("wavelengths")) {
     const auto values = section.require("values", "is missing; one value a wavelength");
     samples = lookUp(*wavelengths, [&] {
-      return Spectrum(section.field(), quantityOf(use), wavelengths->numbers(), values.numbers()).onDomain();
+      return onExcitation(Spectrum(section.field(), quantityOf(use), wavelengths->numbers(), values.numbers()));
     });
   } else if (const auto constant = section.find("constant")) {
     samples.setConstant(constant->number(0.0, kLargestScale));
@@ -191,19 +215,22 @@ DomainSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
       const std::string path = relative.find('/') == std::string::npos ? "./" + relative : relative;
       switch (use) {
         case Use::Emission:
-          return m_library.illuminant(path).onDomain();
+          return onExcitation(m_library.illuminant(path));
         case Use::Transmittance:
-          return m_library.filter(path).onDomain();
+          return onExcitation(m_library.filter(path));
         case Use::Refraction:
-          return spectral::readOpticalConstant(spectral::pathOf(path), spectral::OpticalConstant::Refraction)
-              .onDomain();
+          return onExcitation(
+              spectral::readOpticalConstant(spectral::pathOf(path), spectral::OpticalConstant::Refraction));
         case Use::Extinction:
-          return spectral::readOpticalConstant(spectral::pathOf(path), spectral::OpticalConstant::Extinction)
-              .onDomain();
+          return onExcitation(
+              spectral::readOpticalConstant(spectral::pathOf(path), spectral::OpticalConstant::Extinction));
+        case Use::Excitation:
+          return onExcitation(
+              spectral::readSpectralFile(spectral::pathOf(path), SpectralQuantity::Sensitivity).front());
         case Use::Reflectance:
           break;
       }
-      return m_library.reflectances(path).samples.front().onDomain();
+      return onExcitation(m_library.reflectances(path).samples.front());
     });
   }
   return samples * scale;
@@ -213,7 +240,7 @@ std::vector<SpectrumId> SceneSpectra::set(const SceneValue& value) {
   const auto reflectances = lookUp(value, [&] { return m_library.reflectances(value.text(), m_folder); });
   std::vector<SpectrumId> ids;
   for (const Spectrum& sample : reflectances.samples) {
-    ids.push_back(add(sample.onDomain().cwiseMin(1.0)));
+    ids.push_back(add(ExcitationSamples(onExcitation(sample).cwiseMax(0.0).cwiseMin(1.0))));
   }
   return ids;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "metamer/spectral/data_library.h"
+#include "metamer/spectral/reradiation.h"
 #include "metamer/spectral_ref/scene.h"
 #include "scene_file/scene_value.h"
 
@@ -17,7 +18,7 @@ namespace metamer::spectral_ref {
 class SceneSpectra {
  public:
   /// The two parts of a refractive index have a reader of their own (spectral/optical_constants.h).
-  enum class Use { Emission, Reflectance, Transmittance, Refraction, Extinction };
+  enum class Use { Emission, Reflectance, Transmittance, Refraction, Extinction, Excitation };
 
   SceneSpectra(const std::optional<SceneValue>& section, Scene& scene, const spectral::DataLibrary& library,
                std::filesystem::path folder);
@@ -26,7 +27,11 @@ class SceneSpectra {
   /// use.
   SpectrumId find(const SceneValue& value, Use use);
   /// Adds a spectrum without a name.
+  SpectrumId add(const spectral::ExcitationSamples& samples);
+  /// The same of one that is nothing below 380 nm.
   SpectrumId add(const spectral::DomainSamples& samples);
+  /// A spectrum that has been added, from 300 nm on.
+  spectral::ExcitationSamples at(SpectrumId id) const;
   /// All samples of a reflectance set.
   std::vector<SpectrumId> set(const SceneValue& value);
 
@@ -34,8 +39,8 @@ class SceneSpectra {
   const std::filesystem::path& folder() const { return m_folder; }
 
  private:
-  spectral::DomainSamples read(const SceneValue& definition, Use use) const;
-  spectral::DomainSamples fromLibrary(const SceneValue& value, const std::string& name, Use use) const;
+  spectral::ExcitationSamples read(const SceneValue& definition, Use use) const;
+  spectral::ExcitationSamples fromLibrary(const SceneValue& value, const std::string& name, Use use) const;
 
   Scene& m_scene;
   const spectral::DataLibrary& m_library;

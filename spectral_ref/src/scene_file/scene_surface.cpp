@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene_file/scene_fluorescence.h"
 #include "scene_file/scene_skin.h"
 
 namespace metamer::spectral_ref {
@@ -155,6 +156,9 @@ Surface readSurface(const SceneSection& shape, SceneSpectra& spectra, Scene& sce
   if (const auto skin = shape.find("skin")) {
     set(*skin, readSkin(*skin, spectra));
   }
+  if (const auto fluorescent = shape.find("fluorescent")) {
+    set(*fluorescent, readFluorescent(*fluorescent, spectra, scene));
+  }
   if (const auto gel = shape.find("gel")) {
     Material given;
     given.kind = Material::Kind::Gel;
@@ -175,7 +179,7 @@ Surface readSurface(const SceneSection& shape, SceneSpectra& spectra, Scene& sce
     surface.emission = Emission{id};
   }
   if (!material && !surface.emission) {
-    throw shape.error("", "has no material; give diffuse, skin, conductor, dielectric, gel or emission");
+    throw shape.error("", "has no material; give diffuse, skin, fluorescent, conductor, dielectric, gel or emission");
   }
   scene.materials.push_back(material.value_or(Material{}));
   surface.material = static_cast<std::uint32_t>(scene.materials.size() - 1);

@@ -6,7 +6,8 @@
 namespace metamer::spectral_ref {
 
 /// Keys of a shape that say what it is made of.
-inline constexpr const char* kSurfaceKeys[] = {"diffuse", "skin", "conductor", "dielectric", "gel", "emission"};
+inline constexpr const char* kSurfaceKeys[] = {"diffuse",    "skin", "fluorescent", "conductor",
+                                               "dielectric", "gel",  "emission"};
 
 /// The material and emission of a shape.
 Surface readSurface(const SceneSection& shape, SceneSpectra& spectra, Scene& scene);

@@ -18,12 +18,14 @@ using Lanes = Eigen::Array<float, C, 1>;
 /// Integrals over wavelength are sums over the cells 380 +- 0.5, 381 +- 0.5, ... nm: a continuous wavelength looks up
 /// the cell it lies in, so the expectation of a render is the sum over the 1 nm domain that the rest of metamer uses.
 inline constexpr int kCells = spectral::kDomainSize;
+/// Cells of light that excites fluorescence and is not seen: -80 is 300 nm, -1 379 nm.
+inline constexpr int kUltravioletCells = spectral::kDomainInExcitation;
 inline constexpr float kFirstEdgeNm = static_cast<float>(spectral::kDomainStartNm) - 0.5F;
 
 /// The wavelengths a path carries; lane 0 is the hero.
 template <int C>
 struct WavelengthSet {
-  std::array<std::int32_t, C> cell;  ///< 0 ... 400
+  std::array<std::int32_t, C> cell;  ///< 0 ... 400; from -80 on once a fluorescent surface has shifted it
   Lanes<C> nm;
   Lanes<C> weight;  ///< 1 / (C density(nm)): what a lane's radiance counts, density in 1/nm
 };
@@ -31,16 +33,20 @@ struct WavelengthSet {
 /// All spectra of a scene at 1 nm, one after another.
 class SpectrumTables {
  public:
-  explicit SpectrumTables(const std::vector<spectral::DomainSamples>& spectra) {
-    m_values.reserve(spectra.size() * kCells);
-    for (const spectral::DomainSamples& spectrum : spectra) {
+  explicit SpectrumTables(const Scene& scene) {
+    m_values.reserve(scene.spectra.size() * kStride);
+    for (std::size_t id = 0; id < scene.spectra.size(); ++id) {
+      for (int i = 0; i < kUltravioletCells; ++i) {
+        m_values.push_back(id < scene.ultraviolet.size() ? static_cast<float>(scene.ultraviolet[id][i]) : 0.0F);
+      }
       for (int i = 0; i < kCells; ++i) {
-        m_values.push_back(static_cast<float>(spectrum[i]));
+        m_values.push_back(static_cast<float>(scene.spectra[id][i]));
       }
     }
   }
 
-  const float* table(SpectrumId id) const { return m_values.data() + std::size_t{id} * kCells; }
+  /// Of cell 0; those before are the ultraviolet.
+  const float* table(SpectrumId id) const { return m_values.data() + std::size_t{id} * kStride + kUltravioletCells; }
 
   template <int C>
   Lanes<C> at(SpectrumId id, const WavelengthSet<C>& wavelengths) const {
@@ -53,6 +59,8 @@ class SpectrumTables {
   }
 
  private:
+  static constexpr std::size_t kStride = kUltravioletCells + kCells;
+
   std::vector<float> m_values;
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "metamer/spectral/uplift.h"
+#include "spectral/temporary_folder.h"
 #include "spectral_ref/scene_fixture.h"
 
 namespace metamer::spectral_ref {
@@ -64,6 +65,45 @@ TEST(SceneReaderTest, ColoursBecomeReflectancesByAnyUplift) {
                    "}}\nshapes: [{sphere: {center: [0, 0, 0], radius: 1}, diffuse: paint}]\n");
   };
   EXPECT_EQ(paint("").spectra.front(), paint(", uplift: jakob").spectra.front());
+}
+
+TEST(SceneReaderTest, FluorescentSurfacesAreReadFromCurvesAndFiles) {
+  const std::string curves =
+      "metamer_scene: 1\n"
+      "spectra: {taken: {wavelengths: [320, 400, 480], values: [0, 0.6, 0]}, given: {wavelengths: [450, 520, 600], "
+      "values: "
+      "[0, 2, 0]}, wall: {wavelengths: [300, 400], values: [0.1, 0.3]}}\n"
+      "shapes: [{sphere: {center: [0, 0, 0], radius: 1}, fluorescent: ";
+  const Scene scene =
+      sceneOf(curves + "{reflectance: 0.3, excitation: taken, emission: given, quantum_yield: 0.5}}]\n");
+  const Material& material = scene.materials[scene.spheres[0].surface.material];
+  ASSERT_EQ(material.kind, Material::Kind::Fluorescent);
+  const spectral::FluorescentSamples& surface = scene.fluorescences[material.fluorescence];
+  EXPECT_NEAR(surface.mostPhotons(), 0.3 + 0.5 * 0.6, 1e-9);
+  // 150 nm wide at half of a height of 2: what they integrate to counts as 1.
+  EXPECT_NEAR(surface.perNm(520 - 300, 400 - 300), 0.5 * 0.6 * 2.0 / 150.0 * 400 / 520, 1e-9);
+  EXPECT_EQ(scene.spectra[material.colour][0], 0.3);
+
+  // The same from a file; and below 380 nm a surface is as its table says.
+  const TemporaryFolder folder;
+  std::ofstream(folder / "dye.csv") << "quantum_yield,0.5\nwavelength_nm,reflectance,excitation,emission\n320,0.3,0,0\n"
+                                       "400,0.3,0.6,0\n450,0.3,0.225,0\n480,0.3,0,0.857142857142857\n520,0.3,0,2\n"
+                                       "600,0.3,0,0\n";
+  const Scene ofFile =
+      parseScene(curves + "{file: dye.csv}}, {sphere: {center: [0, 0, 0], radius: 1}, diffuse: wall}]\n", "scene.yaml",
+                 folder.path(), spectral::testLibrary());
+  EXPECT_LT((ofFile.fluorescences.at(0).perNm - surface.perNm).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_NEAR(ofFile.ultraviolet.back()[20], 0.14, 1e-12);
+  EXPECT_NE(ofFile.fingerprint, scene.fingerprint);
+
+  const auto refused = [&](const std::string& given) { return errorIn(curves.substr(17) + given + "}]\n"); };
+  EXPECT_NE(refused("{reflectance: 0.5, excitation: taken, emission: given, quantum_yield: 0.5}").find("together"),
+            std::string::npos);
+  EXPECT_NE(refused("{reflectance: 0.3, excitation: taken, emission: given}").find("quantum_yield"), std::string::npos);
+  EXPECT_NE(refused("{reflectance: 0.3, excitation: taken, emission: given, quantum_yield: 1.2}").find("0 to 1"),
+            std::string::npos);
+  EXPECT_NE(refused("{file: dye.csv, quantum_yield: 1}").find("stands in the file"), std::string::npos);
+  EXPECT_NE(refused("{file: none.csv}").find("no such file"), std::string::npos);
 }
 
 TEST(SceneReaderTest, CamerasAndSpaces) {

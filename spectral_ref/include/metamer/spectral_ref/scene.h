@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "metamer/spectral/observer.h"
+#include "metamer/spectral/reradiation.h"
 #include "metamer/spectral/rgb_space.h"
 #include "metamer/spectral/spectrum.h"
 
@@ -18,6 +19,9 @@
 namespace metamer::spectral_ref {
 
 using Vector3 = Eigen::Vector3d;
+
+/// Values at 300, 301, ... 379 nm.
+using UltravioletSamples = Eigen::Matrix<double, spectral::kDomainInExcitation, 1>;
 
 /// Index into Scene::spectra.
 using SpectrumId = std::uint32_t;
@@ -72,9 +76,10 @@ struct RefractiveIndex {
 };
 
 struct Material {
-  enum class Kind { Black, Diffuse, RoughConductor, SmoothDielectric, RoughDielectric, Gel };
+  enum class Kind { Black, Diffuse, Fluorescent, RoughConductor, SmoothDielectric, RoughDielectric, Gel };
   Kind kind = Kind::Black;
-  SpectrumId colour = 0;              ///< reflectance (Diffuse) or transmittance (Gel)
+  SpectrumId colour = 0;              ///< reflectance (Diffuse, Fluorescent) or transmittance (Gel)
+  std::uint32_t fluorescence = 0;     ///< Fluorescent: index into Scene::fluorescences
   SpectrumId eta = 0;                 ///< RoughConductor: real part of the index
   SpectrumId absorption = 0;          ///< RoughConductor: imaginary part of the index
   double roughness = 0;               ///< GGX alpha, 0 ... 1
@@ -145,6 +150,9 @@ struct Scene {
   CameraSettings camera;
   IntegratorSettings integrator;
   std::vector<spectral::DomainSamples> spectra;
+  /// The same at 300, 301, ... 379 nm: what fluorescence is excited by. A spectrum without has none.
+  std::vector<UltravioletSamples> ultraviolet;
+  std::vector<spectral::FluorescentSamples> fluorescences;
   std::vector<Material> materials;
   std::vector<EmitterPicture> pictures;
   std::vector<Rectangle> rectangles;
