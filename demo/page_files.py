@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The files that the lines of README.md and docs/ name, demo/files: small pictures, a wall's captures, a chart under its LEDs.
+"""The files that the lines of README.md and docs/ name, demo/files: small pictures, a wall's captures, a chart under its LEDs, a
+fluorescent paint.
 
     build/venv/bin/python demo/page_files.py [FOLDER]    (demo/files by default)
 
@@ -36,6 +37,27 @@ def led(peak, width):
     """Ohno (2005)."""
     bell = np.exp(-(((WAVELENGTHS - peak) / width) ** 2))
     return (bell + 2 * bell**5) / 3
+
+
+def dye_band(nm, peak, width, skew):
+    """Asymmetric band of a dye, 1 at its peak: Siano and Metzler (1969), log-normal."""
+    place = 1 + (nm - peak) * (skew * skew - 1) / (width * skew)
+    return np.exp(-np.log(2) * (np.log(np.maximum(place, 1e-12)) / np.log(skew)) ** 2)
+
+
+def fluorescent_paint(folder):
+    """Re-radiation of an orange day-glo paint, MADE of two dyes' formulae and not measured: factors by bands of 10 nm."""
+    nm = np.arange(300.0, 781.0, 10.0)
+    ground = 0.88 - 0.6 * np.exp(-np.maximum(nm - 340, 0) / 25)
+    factors = np.diag(ground)
+    for share, excitation, emission, quantum_yield in ((0.82, (500, 110, 0.7), (603, 48, 1.5), 0.85),
+                                                       (0.12, (440, 70, 0.8), (512, 40, 1.6), 0.7)):
+        taken = ground * share * dye_band(nm, *excitation)
+        photons = dye_band(nm, *emission)
+        energy = np.outer(photons / photons.sum() / nm, quantum_yield * taken * nm)
+        factors += np.tril(energy, -1) - np.diag(taken)
+    write_csv(folder / "dayglo.csv", ["emission_nm/excitation_nm", *(f"{one:g}" for one in nm)],
+              [[to, *row] for to, row in zip(nm, np.where(factors > 1e-7, factors, 0))])
 
 
 def write_csv(file, header, rows):
@@ -112,6 +134,7 @@ def main():
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "demo/files")
     folder.mkdir(parents=True, exist_ok=True)
     captures(folder)
+    fluorescent_paint(folder)
     pictures(folder)
 
 

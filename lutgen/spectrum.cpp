@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "fluorescence.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
@@ -184,7 +185,16 @@ void pack(const PackOptions& options) {
       packed.error.largest, packed.error.largestWhere.c_str()));
 }
 
-void show(const std::string& file) {
+bool isStored(const std::string& file) {
+  constexpr std::string_view kStored = ".json";
+  return file.size() >= kStored.size() && spectral::lowerCase(file.substr(file.size() - kStored.size())) == kStored;
+}
+
+void show(const std::string& file, const std::vector<std::string>& lights) {
+  if (!isStored(file)) {
+    showFluorescence(file, lights);
+    return;
+  }
   const StoredSet set = spectral::readStorage(spectral::pathOf(file));
   for (const StoredSet::Entry& entry : set.entries) {
     const auto& spectrum = entry.spectrum;
@@ -255,7 +265,8 @@ void convert(const std::string& file, const std::string& output, int step) {
 }  // namespace
 
 void addSpectrum(CLI::App& application) {
-  CLI::App* spectrum = application.add_subcommand("spectrum", "Spectra in few numbers: pack them, show them, and back");
+  CLI::App* spectrum = application.add_subcommand(
+      "spectrum", "Spectra in few numbers: pack them, show them, and back; fluorescent surfaces");
   spectrum->require_subcommand(1);
 
   CLI::App* command = spectrum->add_subcommand("pack", "Store spectra in few numbers, and say what that costs");
@@ -279,10 +290,23 @@ void addSpectrum(CLI::App& application) {
   command->add_option("--lights", options->lights, "What reflectances are judged under; left out: A FL11 HP1 LED-RGB1");
   command->callback([options] { pack(*options); });
 
-  CLI::App* shown = spectrum->add_subcommand("show", "What a stored file holds");
+  CLI::App* shown = spectrum->add_subcommand("show", "What a stored file, or that of a fluorescent surface, holds");
   const auto file = std::make_shared<std::string>();
-  shown->add_option("FILE", *file, "JSON of lutgen spectrum pack")->required();
-  shown->callback([file] { show(*file); });
+  const auto lights =
+      std::make_shared<std::vector<std::string>>(std::vector<std::string>{"D65", "A", "FL11", "HP1", "LED-RGB1"});
+  shown->add_option("FILE", *file, "JSON of lutgen spectrum pack, or .csv, .bfc, .exr of a fluorescent surface")
+      ->required();
+  shown->add_option("--lights", *lights,
+                    "What a fluorescent surface is shown under; left out: D65 A FL11 HP1 LED-RGB1");
+  shown->callback([file, lights] { show(*file, *lights); });
+
+  CLI::App* fitted =
+      spectrum->add_subcommand("fit", "The compact form of a fluorescent surface's matrix, and what it costs");
+  const auto compact = std::make_shared<std::string>();
+  fitted->add_option("MATRIX", *file, "Re-radiation matrix: .csv, .bfc, .exr")->required();
+  fitted->add_option("-o,--output", *compact, "CSV to write")->required();
+  fitted->add_option("--lights", *lights, "What it is judged under; left out: D65 A FL11 HP1 LED-RGB1");
+  fitted->callback([file, compact, lights] { fitFluorescence(*file, *compact, *lights); });
 
   CLI::App* converted = spectrum->add_subcommand("convert", "A stored file as a table of spectra");
   const auto output = std::make_shared<std::string>();

@@ -4,10 +4,14 @@
 import json
 import re
 import unittest
+from pathlib import Path
 
 import numpy as np
+import OpenEXR
 
 from lutgen import LutgenTest
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class Spectrum(LutgenTest):
@@ -81,6 +85,55 @@ class Spectrum(LutgenTest):
         self.assertFails("spectrum", "pack", "colorcheker", "-o", "t.json", says=["colorcheker"])
         self.assertFails("spectrum", "pack", "colorchecker", "-o", "t.json", "--form", "hat", says=["hat", "points, hats"])
         self.assertFails("spectrum", "pack", "colorchecker", "-o", "t.json", "--numbers", "3", code=2, says=["--numbers"])
+
+
+class Fluorescence(LutgenTest):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "dayglo.csv").write_bytes((ROOT / "demo/files/dayglo.csv").read_bytes())
+
+    def test_a_matrix_is_shown_and_fitted(self):
+        said = self.assertWorks("spectrum", "show", "dayglo.csv")
+        self.assertRegex(said, r"under D65: .* at most 2\.\d+ times a perfect reflector, at 6\d\d nm: a reflectance cannot hold")
+        said = self.assertWorks("spectrum", "fit", "dayglo.csv", "-o", "compact.csv")
+        for light, difference in re.findall(r"(D65|A|FL11|HP1|LED-RGB1) ([\d.]+)", said):
+            self.assertLessEqual(float(difference), 0.8, light)
+        left = float(re.search(r"([\d.]+) % of the re-radiation", said).group(1))
+        self.assertTrue(1 < left < 20, said)
+        shown = self.assertWorks("spectrum", "show", "compact.csv", "--lights", "D65")
+        self.assertIn("quantum yield 0.7", shown)
+        self.assertNotIn("FL11", shown)
+        self.assertFails("spectrum", "fit", "compact.csv", "-o", "x.csv", says=["compact.csv", "give a matrix"])
+
+    def test_bispectral_pictures_are_matrices(self):
+        table = np.loadtxt(self.folder / "dayglo.csv", delimiter=",", skiprows=1)
+        nm, factors = table[:, 0], table[:, 1:]
+        channels = {"R": np.zeros((1, 2), np.float32)}
+        for i, excitation in enumerate(nm):
+            channels[f"T.{excitation:.6f}nm".replace(".", ",").replace("T,", "T.")] = factors[i, i]
+            for o in range(i + 1, len(nm)):
+                name = f"{excitation:.6f}nm".replace(".", ",") + "." + f"{nm[o]:.6f}nm".replace(".", ",")
+                channels["T." + name] = factors[o, i]
+        channels = {name: np.full((1, 2), value, np.float32) for name, value in channels.items()}
+        OpenEXR.File({"type": OpenEXR.scanlineimage}, channels).write(str(self.folder / "paint.exr"))
+        for light in ("D65", "FL11"):
+            for file in ("paint.exr", "paint.exr:1,0"):
+                shown = [self.assertWorks("spectrum", "show", one, "--lights", light).splitlines()[1]
+                         for one in ("dayglo.csv", file)]
+                self.assertEqual(shown[0], shown[1])
+
+    def test_what_no_surface_does_is_refused_in_a_line(self):
+        text = (self.folder / "dayglo.csv").read_text()
+        lines = text.splitlines()
+        columns = list(zip(*(line.split(",") for line in lines)))
+        (self.folder / "turned.csv").write_text("\n".join(",".join(column) for column in columns))
+        (self.folder / "gap.csv").write_text("\n".join(lines[:20] + lines[21:]))
+        (self.folder / "nan.csv").write_text(text.replace(",0.275137,", ",nan,", 1))
+        (self.folder / "percent.csv").write_text("\n".join([lines[0]] + [
+            ",".join([cells[0]] + [str(100 * float(cell)) for cell in cells[1:]])
+            for cells in (line.split(",") for line in lines[1:])]))
+        for file, says in (("turned", "below its excitation"), ("gap", "gap"), ("nan", "finite"), ("percent", "percent")):
+            self.assertFails("spectrum", "show", f"{file}.csv", says=[f"{file}.csv", says])
 
 
 if __name__ == "__main__":

@@ -53,7 +53,7 @@ class ResamplingTest : public testing::Test {
   ResamplingTest()
       : scene(sceneOf(lamps())),
         shapes(scene),
-        spectra(scene.spectra),
+        spectra(scene),
         lights(scene, shapes),
         bounds(lights.bounds(scene)),
         tree(bounds),

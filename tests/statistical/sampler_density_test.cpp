@@ -177,7 +177,7 @@ class BsdfTest : public testing::TestWithParam<const char*> {
   BsdfTest()
       : scene(sceneOf(std::string("metamer_scene: 1\nshapes:\n  - sphere: {center: [0, 0, 0], radius: 1}\n    ") +
                       GetParam() + "\n")),
-        spectra(scene.spectra),
+        spectra(scene),
         materials(scene) {}
 
   Bsdf<4, true> bsdf() const { return materials.bsdf<4, true>(0, spectra, someWavelengths()); }

@@ -10,6 +10,7 @@
 #include "files/sampled_rows.h"
 #include "metamer/spectral/fluorescence.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/text.h"
@@ -281,18 +282,18 @@ Reradiation readBfc(const std::string& text, const std::string& where) {
 }
 
 Fluorescence readFluorescence(const std::filesystem::path& file) {
-  const auto [where, place] = spectralFileName(file.string());
-  const std::string extension = lowerCase(std::filesystem::path(where).extension().string());
+  const auto [where, place] = spectralFileName(utf8(file));
+  const std::string extension = lowerCase(utf8(pathOf(where).extension()));
   if (extension == ".exr") {
     return readBispectralPicture(where, place);
   }
   if (extension == ".bfc") {
-    return readBfc(readTextFile(where), where);
+    return readBfc(readTextFile(pathOf(where)), where);
   }
   if (extension != ".csv" && extension != ".txt" && extension != ".tsv") {
     throw InputError(where, "extension", extension, "must be .csv, .txt, .tsv, .bfc or .exr");
   }
-  return readFluorescenceTable(readTextFile(where), where);
+  return readFluorescenceTable(readTextFile(pathOf(where)), where);
 }
 
 }  // namespace metamer::spectral

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/spectral/illuminants.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "light/planck.h"
@@ -11,7 +12,7 @@
 namespace metamer::spectral {
 namespace {
 
-constexpr int kStartNm = 360;
+constexpr int kStartNm = 300;  // fluorescence is excited from here on
 constexpr int kEndNm = 830;
 constexpr double kNormalisedAtNm = 560;
 
@@ -54,7 +55,9 @@ Spectrum daylight(double cctK, const std::vector<Spectrum>& basis) {
   const double divisor = 0.0241 + 0.2562 * x - 0.7341 * y;
   const double m1 = threeDecimals((-1.3515 - 1.7703 * x + 5.9114 * y) / divisor);
   const double m2 = threeDecimals((0.0300 - 31.4424 * x + 30.0717 * y) / divisor);
-  const auto power = [&](double nm) { return basis[0].at(nm) + m1 * basis[1].at(nm) + m2 * basis[2].at(nm); };
+  const auto power = [&](double nm) {
+    return std::max(0.0, basis[0].at(nm) + m1 * basis[1].at(nm) + m2 * basis[2].at(nm));
+  };
 
   std::vector<double> wavelengths;
   std::vector<double> values;

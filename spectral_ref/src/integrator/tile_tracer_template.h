@@ -240,8 +240,7 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
   /// progressions at once.
   ///
   /// A pixel's own reservoir is left out: what it would bring has been counted in this pixel already, so in the mean
-  /// over progressions it only takes weight from what is new. Nor does a neighbour count more than the fresh
-  /// candidates.
+  /// over progressions it only takes weight from what is new. Nor does a neighbour outweigh fresh ones.
   const Reservoir<C>& fill(const Resampling& at, const Hit& hit, const Lanes<C>& reflected,
                            const WavelengthSet<C>& wavelengths, const WavelengthSet<C>& seen,
                            const PathRandom& random) {

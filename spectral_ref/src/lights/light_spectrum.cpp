@@ -30,6 +30,16 @@ std::set<SpectrumId> emittedSpectra(const Scene& scene) {
   return spectra;
 }
 
+/// A light from 300 nm on.
+spectral::ExcitationSamples whole(const Scene& scene, SpectrumId id) {
+  spectral::ExcitationSamples light = spectral::ExcitationSamples::Zero();
+  if (id < scene.ultraviolet.size()) {
+    light.head<spectral::kDomainInExcitation>() = scene.ultraviolet[id];
+  }
+  light.tail<spectral::kDomainSize>() = scene.spectra[id];
+  return light;
+}
+
 }  // namespace
 
 spectral::DomainSamples worthOfLights(const Scene& scene) {
@@ -38,7 +48,11 @@ spectral::DomainSamples worthOfLights(const Scene& scene) {
       (curves * scene.film.luminanceOfResponse).cwiseAbs() + curves.cwiseAbs().rowwise().sum();
   spectral::DomainSamples sum = spectral::DomainSamples::Zero();
   for (const SpectrumId id : emittedSpectra(scene)) {
-    const spectral::DomainSamples seen = scene.spectra[id].cwiseProduct(worth);
+    spectral::DomainSamples light = scene.spectra[id];
+    for (const spectral::FluorescentSamples& surface : scene.fluorescences) {
+      light += (surface.perNm * whole(scene, id)).tail<spectral::kDomainSize>();
+    }
+    const spectral::DomainSamples seen = light.cwiseProduct(worth);
     const double total = seen.sum();
     if (total > 0) {
       sum += seen / total;
@@ -51,11 +65,7 @@ spectral::ExcitationSamples excitingLight(const Scene& scene) {
   spectral::ExcitationSamples mean = spectral::ExcitationSamples::Zero();
   const std::set<SpectrumId> lights = emittedSpectra(scene);
   for (const SpectrumId id : lights) {
-    spectral::ExcitationSamples light = spectral::ExcitationSamples::Zero();
-    if (id < scene.ultraviolet.size()) {
-      light.head<spectral::kDomainInExcitation>() = scene.ultraviolet[id];
-    }
-    light.tail<spectral::kDomainSize>() = scene.spectra[id];
+    const spectral::ExcitationSamples light = whole(scene, id);
     if (const double total = light.sum(); total > 0) {
       mean += light / (total * static_cast<double>(lights.size()));
     }

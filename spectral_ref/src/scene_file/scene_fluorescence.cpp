@@ -2,6 +2,7 @@
 #include "scene_file/scene_fluorescence.h"
 
 #include "metamer/spectral/fluorescence.h"
+#include "metamer/spectral/path_text.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -37,7 +38,7 @@ spectral::FluorescentSamples samplesOfFile(const SceneSection& section, const Sc
       throw other->error("", "stands in the file; leave it out");
     }
   }
-  const std::string path = (folder / file.text()).string();
+  const std::filesystem::path path = folder / spectral::pathOf(file.text());
   return samplesIn(section, [&] { return spectral::readFluorescence(path); });
 }
 
@@ -49,8 +50,8 @@ spectral::FluorescentSamples samplesOfCurves(const SceneSection& section, SceneS
   };
   const double yield = section.require("quantum_yield", remedy).number(0.0, 1.0);
   const Spectrum reflectance = curve("reflectance", Use::Reflectance, SpectralQuantity::Reflectance);
-  const Spectrum excitation = curve("excitation", Use::Excitation, SpectralQuantity::Sensitivity);
-  const Spectrum emission = curve("emission", Use::Emission, SpectralQuantity::Sensitivity);
+  const Spectrum excitation = curve("excitation", Use::Dye, SpectralQuantity::Sensitivity);
+  const Spectrum emission = curve("emission", Use::Dye, SpectralQuantity::Sensitivity);
   return samplesIn(section, [&] {
     return spectral::CompactFluorescence{"surface", reflectance, excitation, emission, yield};
   });

@@ -28,7 +28,7 @@ SpectralQuantity quantityOf(Use use) {
       return SpectralQuantity::SpectralPowerDistribution;
     case Use::Transmittance:
       return SpectralQuantity::Transmittance;
-    case Use::Excitation:  // zero outside its table, as a sensitivity
+    case Use::Dye:
       return SpectralQuantity::Sensitivity;
     case Use::Reflectance:
     case Use::Refraction:  // holds its end values, as a reflectance does
@@ -224,7 +224,7 @@ ExcitationSamples SceneSpectra::read(const SceneValue& definition, Use use) cons
         case Use::Extinction:
           return onExcitation(
               spectral::readOpticalConstant(spectral::pathOf(path), spectral::OpticalConstant::Extinction));
-        case Use::Excitation:
+        case Use::Dye:
           return onExcitation(
               spectral::readSpectralFile(spectral::pathOf(path), SpectralQuantity::Sensitivity).front());
         case Use::Reflectance:

@@ -17,8 +17,9 @@ namespace metamer::spectral_ref {
 /// that.
 class SceneSpectra {
  public:
-  /// The two parts of a refractive index have a reader of their own (spectral/optical_constants.h).
-  enum class Use { Emission, Reflectance, Transmittance, Refraction, Extinction, Excitation };
+  /// The two parts of a refractive index have a reader of their own (spectral/optical_constants.h). Dye: what excites
+  /// it or what it emits, nothing outside its table.
+  enum class Use { Emission, Reflectance, Transmittance, Refraction, Extinction, Dye };
 
   SceneSpectra(const std::optional<SceneValue>& section, Scene& scene, const spectral::DataLibrary& library,
                std::filesystem::path folder);

@@ -61,6 +61,7 @@ TEST(ReradiationTest, LightIsReadFrom300Nm) {
   const ExcitationSamples d65 = onExcitation(testLibrary().illuminant("D65"));
   EXPECT_NEAR(d65[0], 0.0341, 1e-9);  // the CIE's table at 300 nm
   EXPECT_EQ(d65[kDomainInExcitation], testLibrary().illuminant("D65").onDomain()[0]);
+  EXPECT_GT(onExcitation(testLibrary().illuminant("daylight 4000 K")).minCoeff(), 0.0);
   EXPECT_EQ(onExcitation(testLibrary().illuminant("FL11")).head<kDomainInExcitation>().maxCoeff(), 0.0);
   // A line of any width has its energy, at the end of the range as well.
   for (const double line : {365.02, 379.6}) {

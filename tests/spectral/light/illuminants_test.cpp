@@ -37,7 +37,7 @@ TEST(IlluminantsTest, DaylightOf6504IsD65) {
 
 TEST(IlluminantsTest, Shapes) {
   const SpectralShape shape = blackbody(3200).shape();
-  EXPECT_EQ(shape.startNm, 360);
+  EXPECT_EQ(shape.startNm, 300);
   EXPECT_EQ(shape.endNm, 830);
   EXPECT_EQ(shape.intervalNm, 1);
   EXPECT_EQ(testLibrary().illuminant("daylight 5600 K").shape().intervalNm, 5);
