@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bare_host.h"
 
-#include <dlfcn.h>
-
-#include <cstdlib>
 #include <stdexcept>
 #include <string_view>
 
@@ -15,12 +12,8 @@ namespace {
 constexpr const char* kColourManagementStyle = "OfxImageEffectPropColourManagementStyle";
 
 template <typename Function>
-Function* symbol(void* library, const char* name) {
-  auto* found = reinterpret_cast<Function*>(dlsym(library, name));
-  if (found == nullptr) {
-    throw std::runtime_error(std::string("the library does not export ") + name);
-  }
-  return found;
+Function* symbol(const LoadedLibrary& library, const char* name) {
+  return reinterpret_cast<Function*>(library.symbol(name));
 }
 
 /// An instance's parameter as its descriptor declares it, at its default.
@@ -59,15 +52,12 @@ Properties::Value positioned(const Parameter& parameter, const Properties::Value
 }  // namespace
 
 std::filesystem::path builtLibrary() {
-  const char* given = std::getenv("METAMER_OFX_LIBRARY");
-  return given != nullptr ? given : METAMER_OFX_LIBRARY;
+  const std::filesystem::path given = libraryOfEnvironment();
+  return given.empty() ? METAMER_OFX_LIBRARY : given;
 }
 
-Host::Host(const std::filesystem::path& library, const Features& features) : m_state(std::make_unique<HostState>()) {
-  m_library = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (m_library == nullptr) {
-    throw std::runtime_error(dlerror());
-  }
+Host::Host(const std::filesystem::path& library, const Features& features)
+    : m_library(library), m_state(std::make_unique<HostState>()) {
   m_state->features = features;
   m_state->properties.set("state", static_cast<void*>(m_state.get()));
   if (!features.colourManagement.empty()) {
@@ -80,9 +70,7 @@ Host::Host(const std::filesystem::path& library, const Features& features) : m_s
   }
 }
 
-Host::~Host() {
-  dlclose(m_library);
-}
+Host::~Host() = default;
 
 int Host::pluginCount() const {
   return symbol<int()>(m_library, "OfxGetNumberOfPlugins")();

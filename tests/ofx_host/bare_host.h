@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "bare_properties.h"
+#include "system.h"
 
 // A host at the level of the C interface, for what a well-behaved host never does: pictures in any shape of memory,
 // renders at once from many threads, suites that are missing.
@@ -98,7 +99,7 @@ class Host {
                                    const std::string& context = kOfxImageEffectContextFilter) const;
 
  private:
-  void* m_library = nullptr;
+  LoadedLibrary m_library;
   std::unique_ptr<struct HostState> m_state;
 };
 

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "frame.h"
-#include "resident_memory.h"
 
 namespace bare_host {
 namespace {

@@ -40,7 +40,7 @@ class OfxLedStage : public ::testing::Test {
   std::string write(const std::string& text) {
     const auto file = m_folder.path() / "stage.json";
     std::ofstream(file) << text;
-    return file.string();
+    return textOf(file);
   }
   std::string stage() {
     return write(R"({"metamer_stage": 1, "M": )" + rows(kM) + R"(, "Q": )" + rows(kQ) + R"(, "N": )" + rows(kN) +
@@ -141,7 +141,7 @@ TEST_F(OfxLedStage, BadFilesPassThePictureThroughAndAreTold) {
     EXPECT_NE(effect->message().find(says), std::string::npos) << effect->message();
     EXPECT_NE(effect->message().find("stage.json"), std::string::npos) << effect->message();
   }
-  const auto gone = m_host.create(1, {{"stageFile", (m_folder.path() / "gone.json").string()}});
+  const auto gone = m_host.create(1, {{"stageFile", textOf(m_folder.path() / "gone.json")}});
   render(*gone);
   for (const char* says : {"gone.json", "stageFile", "no such file", "lutgen stage solve"}) {
     EXPECT_NE(gone->message().find(says), std::string::npos) << gone->message();

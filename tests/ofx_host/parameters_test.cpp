@@ -21,9 +21,9 @@ class OfxParameters : public ::testing::Test {
   Frame m_source{{.bounds = kBounds}};
   Frame m_output{{.bounds = kBounds}};
 
-  std::string write(const std::string& name, const std::string& text) {
+  std::string write(const std::filesystem::path& name, const std::string& text) {
     std::ofstream(m_folder.path() / name) << text;
-    return (m_folder.path() / name).string();
+    return textOf(m_folder.path() / name);
   }
 
   Frame::Rgba render(Instance& effect, double time = 0) {
@@ -80,7 +80,7 @@ TEST_F(OfxParameters, ANameThatIsGoneIsToldWithNearOnes) {
 
 TEST_F(OfxParameters, AMissingRecipePassesThePictureThroughUntilItIsThere) {
   const auto effect = m_host.create(0);
-  const std::string file = (m_folder.path() / "100 %s day.yaml").string();
+  const std::string file = textOf(m_folder.path() / "100 %s day.yaml");
   effect->set("recipeFile", file);
   expectPassesThrough(*effect, {file, "recipeFile", "no such file", "choose the recipe anew"});
   const int shown = effect->effect().messagesShown;
@@ -102,7 +102,7 @@ TEST_F(OfxParameters, SpectraFromFilesAreFollowed) {
   const std::string light = write("lamp", "nm,power\n380,1\n580,1\n780,3\n");
   const auto effect = m_host.create(0, {{"outputIlluminant", "From file"}, {"scene", "Data set"}});
   expectPassesThrough(*effect, {"outputIlluminantFile", "no file is chosen"});
-  effect->set("outputIlluminantFile", std::string(m_folder.path() / "lamp.csv"));
+  effect->set("outputIlluminantFile", textOf(m_folder.path() / "lamp.csv"));
   expectPassesThrough(*effect, {"lamp.csv", "outputIlluminantFile", "no such file", "choose the file anew"});
   write("lamp.csv", "nm,power\n380,1\n580,1\n780,3\n");
   const auto first = render(*effect);
@@ -112,6 +112,23 @@ TEST_F(OfxParameters, SpectraFromFilesAreFollowed) {
   EXPECT_NE(render(*effect), first);
   write("lamp.csv", "nm,power\n380,-3\n580,1\n");
   expectPassesThrough(*effect, {"lamp.csv", "-3"});
+}
+
+TEST_F(OfxParameters, FilesAreNamedInAnyScript) {
+  const std::string light = "nm,power\n380,1\n580,1\n780,3\n";
+  const std::string recipe =
+      "metamer: 1\nscene: {kind: dataset, set: skin}\ninput: {illuminant: D65}\noutput: {illuminant: ";
+  write("lamp.csv", light);
+  const auto plain = m_host.create(0, {{"recipeFile", write("day.yaml", recipe + "lamp.csv}\n")}});
+  const Frame::Rgba expected = render(*plain);
+  EXPECT_EQ(plain->message(), "");
+  EXPECT_NE(expected, m_source.at(3, 3));
+  write(pathOf("лампа ☀.csv"), light);
+  const auto named = m_host.create(0, {{"recipeFile", write(pathOf("夜景 é.yaml"), recipe + "лампа ☀.csv}\n")}});
+  EXPECT_EQ(render(*named), expected);
+  EXPECT_EQ(named->message(), "");
+  named->set("recipeFile", textOf(m_folder.path() / pathOf("無い.yaml")));
+  expectPassesThrough(*named, {"無い.yaml", "no such file"});
 }
 
 TEST_F(OfxParameters, OutOfRangeTemperaturesAndDarkFiltersAreTold) {
@@ -192,7 +209,7 @@ TEST_F(OfxParameters, WhatHasNoSayIsGreyedOut) {
 // A file that changes behind its size and date shows whether it was read again.
 TEST_F(OfxParameters, NothingIsBuiltTwice) {
   const std::string file = write("lamp.csv", "nm,power\n380,1\n580,1\n780,3\n");
-  const auto date = std::filesystem::last_write_time(file);
+  const auto date = std::filesystem::last_write_time(pathOf(file));
   const auto lit = [&](double mix) {
     return m_host.create(
         0, {{"outputIlluminant", "From file"}, {"outputIlluminantFile", file}, {"scene", "Data set"}, {"mix", mix}});
@@ -201,7 +218,7 @@ TEST_F(OfxParameters, NothingIsBuiltTwice) {
   const Frame::Rgba first = render(*effect);
 
   write("lamp.csv", "nm,power\n380,3\n580,1\n780,1\n");
-  std::filesystem::last_write_time(file, date);
+  std::filesystem::last_write_time(pathOf(file), date);
   EXPECT_EQ(render(*effect), first);
   // Mix has no part in the engine; neither has another instance, nor the light that is set and taken back.
   effect->set("mix", 0.5);
@@ -217,7 +234,7 @@ TEST_F(OfxParameters, NothingIsBuiltTwice) {
   EXPECT_EQ(render(*lit(1.0)), first);
 
   // It would have been another picture.
-  std::filesystem::last_write_time(file, date + std::chrono::seconds(2));
+  std::filesystem::last_write_time(pathOf(file), date + std::chrono::seconds(2));
   EXPECT_NE(render(*effect), first);
 }
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
-#include <stdexcept>
+#include <random>
 #include <string>
+#include <system_error>
+
+#include "system.h"
 
 /// A folder of its own for one test, gone with it.
 class ScratchFolder {
  public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "metamer_ofx_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error("no temporary folder");
-    }
-    m_path = name;
+  ScratchFolder()
+      : m_path(std::filesystem::temp_directory_path() /
+               bare_host::pathOf("metamer_ofx_" + std::to_string(std::random_device()()))) {
+    std::filesystem::create_directory(m_path);
   }
   ~ScratchFolder() {
     std::error_code ignored;

@@ -2,6 +2,8 @@
 """The bundle as it is installed: its shape, what it exports, what it asks of a system; moved, and without its tables."""
 
 import os
+import plistlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -43,6 +45,10 @@ class Bundle(unittest.TestCase):
     def test_has_the_shape_that_hosts_look_for(self):
         self.assertTrue(self.library.is_file())
         self.assertTrue((self.bundle / "Contents/Resources/data/manifest.json").is_file())
+        facts = plistlib.loads((self.bundle / "Contents/Info.plist").read_bytes())
+        version = re.search(r"^project\(metamer VERSION ([0-9.]+)", Path("CMakeLists.txt").read_text(), re.MULTILINE)[1]
+        self.assertEqual((facts["CFBundleExecutable"], facts["CFBundlePackageType"]), (self.library.name, "BNDL"))
+        self.assertEqual(facts["CFBundleVersion"], version)
         self.assertFalse(any(path.is_symlink() for path in self.bundle.rglob("*")))
 
     def test_exports_the_entry_points_alone(self):

@@ -6,7 +6,8 @@
 #include <string_view>
 
 // Text is UTF-8 everywhere in metamer, and so are the names of files in it. A path's own conversions go through a code
-// page on Windows, which loses what that cannot hold: these two are the only way between text and paths (tests/paths).
+// page on Windows, which loses what that cannot hold: these two are the only way between text and paths
+// (tests/sources).
 namespace metamer::spectral {
 
 /// A path as UTF-8. Where names are bytes, these bytes.
