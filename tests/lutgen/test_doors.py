@@ -11,7 +11,7 @@ import time
 import unittest
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageCms
 
 from lutgen import LUTGEN, LutgenTest, lutgen
 
@@ -170,6 +170,37 @@ class Libraries(LutgenTest):
         run = lutgen("bake", "--lut", "a.cube", "-o", "b.ctf", folder=self.folder)
         self.assertNotIn(str(self.folder), run.stderr)
         self.assertNotIn("debug log", run.stderr)
+
+    def test_cubes_whose_domain_falls(self):
+        table = "\n".join(f"{r} {g} {b}" for b in (0, 1) for g in (0, 1) for r in (0, 1)) + "\n"
+        Image.fromarray(np.zeros((4, 4, 3), np.uint8)).save(self.folder / "a.png")
+        for head, says in (("DOMAIN_MIN 1 1 1\nDOMAIN_MAX 0 0 0", "DOMAIN_MIN '1 1 1'"), ("DOMAIN_MAX 1 0 1", "DOMAIN_MAX (1 0 1)"),
+                           ("DOMAIN_MIN 0 0 nan\nDOMAIN_MAX 1 1 1", "DOMAIN_MIN '0 0 nan'"),
+                           ("LUT_3D_INPUT_RANGE 1 0", "LUT_3D_INPUT_RANGE '1 0'")):
+            for end in ("\n", "\r\n"):
+                with self.subTest(head):
+                    (self.folder / "a.cube").write_text(f"{head}\nLUT_3D_SIZE 2\n{table}".replace("\n", end), newline="")
+                    for arguments in (("apply", "a.cube", "a.png", "b.png"), ("bake", "--lut", "a.cube", "-o", "b.ctf")):
+                        self.assertFails(*arguments, says=["a.cube", says, "export the LUT again"])
+        for head in ("DOMAIN_MIN -1 0 0\nDOMAIN_MAX 2 2 2", "DOMAIN_MAX 2 2 2", "LUT_3D_INPUT_RANGE 0.0 2.0", ""):
+            (self.folder / "a.cube").write_text(f"# DOMAIN_MIN 1\n{head}\nLUT_3D_SIZE 2\n{table}")
+            self.assertEqual(lutgen("apply", "a.cube", "a.png", "b.png", folder=self.folder).returncode, 0, head)
+
+    def test_profiles_of_other_colours(self):
+        """A PNG's library drops such a profile without a word; nobody takes the pixels for sRGB then."""
+        (self.folder / "a.yaml").write_text(RECIPE)
+        srgb = ImageCms.ImageCmsProfile(ImageCms.createProfile("sRGB")).tobytes()
+        picture = Image.fromarray(np.full((4, 6, 3), 90, np.uint8))
+        for extension in ("png", "jpg", "tif"):
+            name = "a." + extension
+            for colours in ("Lab ", "CMYK", "GRAY", "XYZ "):
+                picture.save(self.folder / name, icc_profile=srgb[:16] + colours.encode() + srgb[20:])
+                self.assertFails("apply", "a.yaml", name, "b." + extension, says=[name, f"ICC profile '{colours.strip()}'",
+                                                                                   "--picture-space"])
+                run = lutgen("apply", "a.yaml", name, "b." + extension, "--picture-space", "sRGB", folder=self.folder)
+                self.assertEqual(run.returncode, 0, run.stderr)
+            picture.save(self.folder / name, icc_profile=srgb)
+            self.assertEqual(lutgen("apply", "a.yaml", name, "b." + extension, folder=self.folder).returncode, 0)
 
     def test_broken_pngs(self):
         Image.fromarray(np.random.default_rng(1).integers(0, 255, (24, 32, 3), np.uint8)).save(self.folder / "whole.png")

@@ -39,6 +39,28 @@ class Answers(LutgenTest):
         self.assertFails("stage", "match", "--json", "m.json", "--target", "D65", "--emitters", *RGB, "--drives", "dmx8",
                          says=["led:628:14", "% of full", "--level free"])
 
+    def test_drives_through_ramps(self):
+        """What is sent gives the light that was asked: by the emitters' true curves."""
+        curves = [lambda d: d**2.2, lambda d: d**2.2, lambda d: 0.4 * d + 0.6 * d**3]
+        names = [self.folder / f"ramp{k}.csv" for k in range(3)]
+        sent = np.linspace(0, 1, 33)
+        for name, curve in zip(names, curves):
+            write_chart(name, map(repr, sent.tolist()), np.outer(curve(sent), [0.8, 0.3, 0.1]))
+        arguments = ("--target", "D65", "--emitters", *RGB, "--level", "free")
+        ours = self.match(*arguments, "--drives", "dmx16", "--ramps", *names)
+        for value, curve, drive in zip(ours["steps"]["values"], curves, ours["drives"]):
+            self.assertAlmostEqual(curve(value / 65535), drive, delta=2e-3)
+        self.assertEqual([one["model"] for one in ours["steps"]["eotf"]], ["power", "power", "curve"])
+        self.assertAlmostEqual(ours["steps"]["dE"]["mean"], ours["dE"]["mean"], delta=0.02)
+        self.assertIn("EOTF of led:628:14: power 2.2", self.printed)
+        one = self.match(*arguments, "--drives", "percent", "--ramps", names[0])
+        np.testing.assert_allclose(100 * np.array(one["drives"]) ** (1 / 2.2), one["steps"]["values"], atol=0.02)
+        fails = ("stage", "match", "--json", "m.json", *arguments)
+        self.assertFails(*fails, "--drives", "dmx8", "--ramps", *names[:2], says=["--ramps", "one an emitter (3)"])
+        self.assertFails(*fails, "--ramps", names[0], code=2, says=["--drives"])
+        (self.folder / "bad.csv").write_text("patch,R,G,B\n0,0,0,0\n1,1,1,1\n")
+        self.assertFails(*fails, "--drives", "dmx8", "--ramps", "bad.csv", says=["bad.csv", "drives"])
+
     def test_rounded_drives_are_what_is_judged(self):
         """A mixture of 100, 50 and 25 steps is made of them exactly; of a hundredth more it is not."""
         for extra, low, high in ((0, 0, 0.02), (0.45, 0.02, 1)):

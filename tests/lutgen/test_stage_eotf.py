@@ -6,6 +6,7 @@ import unittest
 
 import numpy as np
 import OpenEXR
+import PyOpenColorIO
 
 from lutgen import LutgenTest, lutgen
 from stage_physics import Stage, write_chart
@@ -91,6 +92,7 @@ class Ramps(LutgenTest):
                     np.testing.assert_allclose(got[[0, 5]], got[[1, 6]], atol=1e-6)
                     np.testing.assert_allclose(EOTFS[name](got[3:6]), drives[3:6], rtol=0.1)
                 self.assertFalse((self.folder / "w_signal.spimtx").exists())
+                self.config_sends(EOTFS[name], ours)
         Stage().write(self.folder, extra="ramps: {red: [[0, 0, 0], [1, 1, 0]], green: g.csv, blue: b.csv}\n")
         self.assertFails("stage", "solve", "stage.yaml", "-o", "x.json", says=["ramps.red", "4 numbers"])
         row = "[[-1, 0, 0, 0], [1, 1, 0, 0]]"
@@ -99,6 +101,30 @@ class Ramps(LutgenTest):
         row = "[[0, 0, 0, 0], [1, 1, 0, 0]]"
         Stage().write(self.folder, extra=f"ramps: {{red: {row}, green: {row}, blue: {row}}}\n")
         self.assertFails("stage", "solve", "stage.yaml", "-o", "x.json", says=["stage.yaml: ramps.red", "drives"])
+
+    def config_sends(self, light, ours):
+        """The spaces of the signal are those of the wall behind its curve, also where the LUTs lie in another folder."""
+        (self.folder / "luts").mkdir(exist_ok=True)
+        for prefix, base in (("w", []), ("luts/w", []), ("luts/w", ["--base", "base.ocio"])):
+            (self.folder / "base.ocio").write_text("""ocio_profile_version: 2
+search_path: other
+roles: {aces_interchange: ACES2065-1, default: ACES2065-1}
+displays:
+  d:
+    - !<View> {name: v, colorspace: ACES2065-1}
+colorspaces:
+  - !<ColorSpace> {name: ACES2065-1}
+""")
+            self.assertWorks("stage", "solve", "stage.yaml", "-o", "in.json", "--samples", 0, "--as-captured", "--luts", prefix,
+                             "--config", "w.ocio", *base)
+            PyOpenColorIO.ClearAllCaches()  # files of these names were others
+            config = PyOpenColorIO.Config.CreateFromFile(str(self.folder / "w.ocio"))
+            config.validate()
+            name = next(s for s in config.getColorSpaceNames() if s.endswith(" camera"))[: -len(" camera")]
+            camera = np.array([[0.05, 0.08, 0.06], [0.12, 0.1, 0.09]], np.float32)
+            sent, asked = ([config.getProcessor(f"{name} camera", f"{name} {kind} in frustum").getDefaultCPUProcessor().applyRGB(
+                row.tolist()) for row in camera] for kind in ("signal", "wall"))
+            np.testing.assert_allclose(light(np.array(sent)), np.clip(asked, 0, 1), rtol=0.1, atol=2e-3)
 
     def applied(self, lut, rgb):
         OpenEXR.File({}, {"RGB": rgb[None].astype(np.float32)}).write(str(self.folder / "i.exr"))

@@ -77,6 +77,9 @@ class Cases(unittest.TestCase):
             (binary + struct.pack("<B3i", 3, 0, 1, 7), "face 0 vertex index '7'"),
             (binary + struct.pack("<B2i", 3, 0, 1), "cut short"),
             (whole.replace(b"uchar int", b"uchar frog"), "property"),
+            ((ascii_head + body + "0\n").encode(), "has no vertices"),
+            (whole.replace(b"face 1", b"face 2") + b"0\n", "face 1 '0': has no vertices"),
+            (binary + struct.pack("<B", 0), "has no vertices"),
         ):
             (self.folder / "m.ply").write_bytes(data)
             self.refused(scene, "m.ply", says)

@@ -30,6 +30,7 @@ class AnyPicture {
 
   std::vector<PartFacts> facts() const;
   const OIIO::ImageSpec& spec(int part) const { return m_parts[static_cast<std::size_t>(part)].before; }
+  const std::string& file() const { return m_file; }
   const std::string& format() const { return m_format; }
   /// Bytes of all samples.
   std::uint64_t bytes() const;

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "apply/icc_profile.h"
 #include "metamer/spectral/path_text.h"
 
 namespace metamer::lutgen {
@@ -19,6 +20,7 @@ SpaceClues cluesOf(const AnyPicture& picture, const ColourLayer& layer) {
   for (const char* key : {"jpeg:ColorSpace", "tiff:ColorSpace", "psd:ColorMode"}) {
     clues.isInks = clues.isInks || spec.get_string_attribute(key) == "CMYK" || spec.get_string_attribute(key) == "YCCK";
   }
+  clues.profileColours = coloursOfProfile(spec, picture.file());
   clues.profile = spec.get_string_attribute("ICCProfile:profile_description");
   std::array<float, 8> xy{};
   if (spec.getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), xy.data())) {

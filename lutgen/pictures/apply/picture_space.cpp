@@ -113,6 +113,11 @@ std::optional<PictureSpace> pictureSpaceOf(const SpaceClues& clues, const std::s
     throw InputError(file, "colour space", "CMYK",
                      "is of inks, not of light; convert the picture to RGB by its profile first");
   }
+  if (!clues.profileColours.empty() && clues.profileColours != "RGB ") {
+    throw InputError(file, "ICC profile", std::string(spectral::trimmed(clues.profileColours)),
+                     "is not of RGB; convert the picture to RGB by it first, or say what the pixels are: "
+                     "--picture-space sRGB");
+  }
   if (!clues.isFloat && !clues.profile.empty()) {
     const std::string profile = spectral::lowerCase(clues.profile);
     if (profile.find("p3") != std::string::npos && profile.find("display") != std::string::npos) {

@@ -26,6 +26,7 @@ struct SpaceClues {
   std::string format;                                  ///< OpenImageIO's: "openexr", "png", ...
   std::string named;                                   ///< oiio:ColorSpace, colorInteropID; empty: none
   std::string profile;                                 ///< description of an ICC profile; empty: none
+  std::string profileColours;                          ///< as coloursOfProfile(); empty: none
   std::optional<std::array<float, 8>> chromaticities;  ///< xy of red, green, blue, white
   bool isFloat = true;
   bool isInks = false;  ///< CMYK, of which red, green and blue were made without a profile

@@ -63,7 +63,8 @@ std::vector<PartFacts> factsOf(const ExrFile& file) {
 }
 
 SpaceClues cluesOf(const ExrPart& part) {
-  SpaceClues clues{"openexr", {}, {}, {}, true};
+  SpaceClues clues;
+  clues.format = "openexr";
   for (const char* name : {"colorInteropID", "oiio:ColorSpace"}) {
     const ExrAttribute* attribute = part.find(name);
     if (attribute != nullptr && attribute->type == "string" && clues.named.empty()) {

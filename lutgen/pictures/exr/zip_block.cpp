@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exr/zip_block.h"
 
+#include <algorithm>
+
 #ifdef METAMER_HAS_LIBDEFLATE
 #include <libdeflate.h>
 
@@ -31,6 +33,16 @@ bool inflateInto(std::string_view packed, std::string& bytes) {
          LIBDEFLATE_SUCCESS;
 }
 
+/// How many bytes came of it; 0 where it is damaged or they do not fit.
+std::size_t inflateSome(std::string_view packed, std::string& bytes) {
+  const std::unique_ptr<libdeflate_decompressor, Free> tool(libdeflate_alloc_decompressor());
+  std::size_t size = 0;
+  return tool && libdeflate_zlib_decompress(tool.get(), packed.data(), packed.size(), bytes.data(), bytes.size(),
+                                            &size) == LIBDEFLATE_SUCCESS
+             ? size
+             : 0;
+}
+
 /// 0 where they do not fit.
 std::size_t deflateInto(const std::string& bytes, std::string& packed, int level) {
   thread_local std::array<std::unique_ptr<libdeflate_compressor, Free>, 10> tools;
@@ -51,6 +63,15 @@ bool inflateInto(std::string_view packed, std::string& bytes) {
   return uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
                     static_cast<uLong>(packed.size())) == Z_OK &&
          size == bytes.size();
+}
+
+/// How many bytes came of it; 0 where it is damaged or they do not fit.
+std::size_t inflateSome(std::string_view packed, std::string& bytes) {
+  auto size = static_cast<uLongf>(bytes.size());
+  return uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
+                    static_cast<uLong>(packed.size())) == Z_OK
+             ? size
+             : 0;
 }
 
 /// 0 where they do not fit.
@@ -85,6 +106,17 @@ std::string unzippedBlock(std::string_view packed, std::size_t size) {
     block[size - 1] = differences[half - 1];
   }
   return block;
+}
+
+std::string inflated(std::string_view packed, std::size_t most) {
+  std::string bytes;
+  for (std::size_t size = std::min<std::size_t>(most, 1U << 16U);; size = std::min(most, 8 * size)) {
+    bytes.resize(size);
+    bytes.resize(inflateSome(packed, bytes));
+    if (!bytes.empty() || size >= most) {
+      return bytes;
+    }
+  }
 }
 
 std::string zippedBlock(std::string_view block, int level) {

@@ -12,6 +12,11 @@ namespace metamer::lutgen {
 /// @return empty where the bytes are damaged
 std::string unzippedBlock(std::string_view packed, std::size_t size);
 
+/// A zlib stream by itself.
+/// @param most  bytes that are taken
+/// @return empty where it is damaged or longer
+std::string inflated(std::string_view packed, std::size_t most);
+
 /// As OpenEXR has packed since 3.1.3.
 inline constexpr int kUsualZipLevel = 4;
 /// A third less time, and of many channels that are alike hardly more bytes.

@@ -128,7 +128,8 @@ class Editing {
 
   /// Maps are linear: the residual's space is that of their chromaticities.
   PictureSpace spaceOf(const AnyPicture& picture, const SkinMapsPlace& place, const fs::path& file) const {
-    SpaceClues clues{"openexr", {}, {}, {}, true};
+    SpaceClues clues;
+    clues.format = "openexr";
     std::array<float, 8> xy{};
     if (picture.spec(place.part).getattribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), xy.data())) {
       clues.chromaticities = xy;

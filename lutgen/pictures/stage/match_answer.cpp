@@ -3,6 +3,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/stage/chart_difference.h"
+#include "stage/eotf_words.h"
 #include "stage/match_report.h"
 
 namespace metamer::lutgen {
@@ -51,6 +52,9 @@ std::vector<std::string> linesOf(const MatchAnswer& answer) {
     }
     lines.push_back(text + formatted("; rounded so, CIEDE2000 mean %.2f max %.2f", answer.steps->meanDifference,
                                      answer.steps->maxDifference));
+    for (std::size_t k = 0; k < answer.eotfs.size(); ++k) {
+      lines.push_back("EOTF of " + answer.outcome.emitters[k] + ": " + textOf(answer.eotfs[k]));
+    }
   }
   if (answer.intervals) {
     const stage::MatchIntervals& intervals = *answer.intervals;
@@ -94,6 +98,9 @@ Json toJson(const MatchAnswer& answer) {
         {"values", toJson(answer.steps->values)},
         {"dE",
          {{"mean", numberToJson(answer.steps->meanDifference)}, {"max", numberToJson(answer.steps->maxDifference)}}}};
+    for (const stage::PanelEotf& eotf : answer.eotfs) {
+      json["steps"]["eotf"].push_back(toJson(eotf));
+    }
   }
   if (answer.intervals) {
     const stage::MatchIntervals& intervals = *answer.intervals;

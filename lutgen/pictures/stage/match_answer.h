@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "metamer/stage/match_limits.h"
+#include "metamer/stage/panel_eotf.h"
 #include "stage/stage_json.h"
 
 namespace metamer::lutgen {
@@ -17,6 +18,7 @@ struct MatchAnswer {
   std::optional<double> level;                     ///< where it is free
   std::optional<stage::LimitCost> limitCost;       ///< where limits hold something back
   std::optional<stage::DriveSteps> steps;          ///< where a unit is asked for
+  std::vector<stage::PanelEotf> eotfs;             ///< that the steps went through; empty: light is proportional
   std::optional<stage::MatchIntervals> intervals;  ///< where charts were captured
 };
 

@@ -8,6 +8,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/spectral_files.h"
 #include "metamer/stage/capture_faults.h"
 #include "metamer/stage/skin_priority.h"
 #include "stage/chart_picture.h"
@@ -42,6 +43,7 @@ struct MatchOptions {
   std::string weights = "absolute";
   std::string level = "fixed";
   std::string unit;
+  std::vector<std::string> ramps;
   std::optional<double> noise;
   int samples = 200;
   std::uint64_t seed = 1;
@@ -54,6 +56,25 @@ struct MatchOptions {
 stage::MatchRequest requestOf(const MatchOptions& options, const stage::DriveLimits& limits) {
   return {options.method, options.weights, limits, "--charts",
           options.priority.empty() ? 0 : stage::skinWeightFrom(options.priority)};
+}
+
+/// Of each emitter, where ramps were captured.
+std::vector<stage::PanelEotf> eotfsOf(const std::vector<std::string>& ramps, std::size_t emitterCount) {
+  if (ramps.size() > 1 && ramps.size() != emitterCount) {
+    throw InputError("--ramps", "files", std::to_string(ramps.size()),
+                     "must be one, or one an emitter (" + std::to_string(emitterCount) + ")");
+  }
+  std::vector<stage::PanelEotf> eotfs;
+  for (const std::string& file : ramps) {
+    const stage::DriveSeries series = stage::parseDriveSeries(spectral::readTextFile(spectral::pathOf(file)), file);
+    try {
+      eotfs.push_back(stage::fitEotf(series));
+    } catch (const InputError& error) {
+      throw InputError(file, "", "", error.what());
+    }
+  }
+  eotfs.resize(ramps.empty() ? 0 : emitterCount, eotfs.empty() ? stage::PanelEotf() : eotfs.front());
+  return eotfs;
 }
 
 /// Solves as the level and the limits ask, and says what they cost.
@@ -71,7 +92,8 @@ MatchAnswer answerOf(const MatchOptions& options, const stage::DriveLimits& limi
   if (!options.unit.empty()) {
     const auto count = static_cast<Eigen::Index>(emitterCount);
     const Eigen::VectorXd full = limits.upper.size() == 0 ? Eigen::VectorXd::Ones(count) : limits.upper;
-    answer.steps = stage::stepsOf(answer.outcome, options.unit, full, answer.level.value_or(1));
+    answer.eotfs = eotfsOf(options.ramps, emitterCount);
+    answer.steps = stage::stepsOf(answer.outcome, options.unit, full, answer.level.value_or(1), answer.eotfs);
   }
   return answer;
 }
@@ -279,11 +301,19 @@ void addStageMatch(CLI::App& stage) {
       ->add_option("--level", options->level,
                    "fixed: the light's own level; free: its colour, as bright as limits (1 by default) allow")
       ->check(CLI::IsMember({"fixed", "free"}));
+  CLI::Option* drives =
+      command
+          ->add_option(
+              "--drives", options->unit,
+              "Drives as a desk takes them too: percent, dmx8 (0 to 255) or dmx16 (0 to 65535) of --limits, or of 1")
+          ->check(CLI::IsMember({"percent", "dmx8", "dmx16"}));
   command
       ->add_option(
-          "--drives", options->unit,
-          "Drives as a desk takes them too: percent, dmx8 (0 to 255) or dmx16 (0 to 65535) of --limits, or of 1")
-      ->check(CLI::IsMember({"percent", "dmx8", "dmx16"}));
+          "--ramps", options->ramps,
+          "What a camera saw of the emitters at rising drives (CSV, as of stage linearity): one for all, or one "
+          "an emitter; --drives are then what gives the light")
+      ->expected(1, 64)
+      ->needs(drives);
   command->add_option("--noise", options->noise, "Of the charts' values, as a share; estimated from them by default")
       ->check(CLI::Range(0.0, 0.5));
   command

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "metamer/spectral/formatted.h"
+#include "stage/eotf_words.h"
 #include "stage/skin_report.h"
 
 namespace metamer::lutgen {
@@ -87,24 +88,6 @@ Eigen::Vector3d environmentSignal(const stage::StageResult& result) {
     signal[channel] = (*result.capture.eotf)[k].driveFor(result.solution.environmentDrive[channel]);
   }
   return signal;
-}
-
-Json toJson(const stage::PanelEotf& eotf) {
-  return {{"model", eotf.isCurve ? "curve" : "power"},
-          {"gamma", numberToJson(eotf.gamma)},
-          {"offset", eotf.offset},
-          {"gain", numberToJson(eotf.gain)},
-          {"black", eotf.black},
-          {"residual", eotf.residual},
-          {"drives", eotf.drives},
-          {"light", eotf.light}};
-}
-
-std::string textOf(const stage::PanelEotf& eotf) {
-  return eotf.isCurve ? spectral::formatted("a curve of %zu steps (no power; the nearest is %.2f), residual %.2f %%",
-                                            eotf.drives.size(), eotf.gamma, 100 * eotf.residual)
-                      : spectral::formatted("power %.3f, dead below %.3f, residual %.2f %%", eotf.gamma, -eotf.offset,
-                                            100 * eotf.residual);
 }
 
 /// A line a channel, and what is sent for the environment's white.

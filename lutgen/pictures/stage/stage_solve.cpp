@@ -80,9 +80,12 @@ void solve(const SolveOptions& options) {
   const stage::StageResult result =
       stage::solveStage(description, readCapture(description, library, options.checkPictures), options.choices);
   if (!options.config.empty()) {
-    spectral::writeWholeFile(spectral::pathOf(options.config),
-                             ocio::stageConfigText(matricesOf(result), library, spectral::pathOf(options.config),
-                                                   spectral::pathOf(options.base)));
+    const bool hasSignals = result.capture.eotf && !options.luts.empty();
+    spectral::writeWholeFile(
+        spectral::pathOf(options.config),
+        ocio::stageConfigText(matricesOf(result), library, spectral::pathOf(options.config),
+                              spectral::pathOf(options.base),
+                              spectral::pathOf(hasSignals ? options.luts + "_signal.clf" : std::string())));
   }
   if (!options.luts.empty()) {
     ocio::writeStageFiles(matricesOf(result), spectral::pathOf(options.luts));
@@ -120,8 +123,10 @@ void addStageSolve(CLI::App& stage) {
   command->add_option("--luts", options->luts,
                       "PREFIX of transforms to write: PREFIX_out_of_frustum, _in_frustum and _post_correction, each "
                       "as .spimtx, .clf and .ctf; with ramps PREFIX_signal, what to send for their drives");
-  CLI::Option* config =
-      command->add_option("--config", options->config, "OCIO config to write: the wall's spaces and the camera's look");
+  CLI::Option* config = command->add_option(
+      "--config", options->config,
+      "OCIO config to write: the wall's spaces (with ramps and --luts also what it is sent) and the "
+      "camera's look");
   command->add_option("--base", options->base, "OCIO config to add them to; a new one by default")->needs(config);
   command->callback([options] { solve(*options); });
 }

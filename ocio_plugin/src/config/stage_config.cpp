@@ -92,6 +92,7 @@ void emitMatrix(YAML::Emitter& yaml, const Eigen::Matrix3d& matrix, const Eigen:
 struct Wall {
   Eigen::Matrix3d matrix;
   Eigen::Vector3d offset;
+  std::string signalFile;  ///< as the config names it: from drives to what is sent; empty: drives
 };
 
 std::string spaceYaml(const std::string& name, const std::string& description, const Interchange& interchange,
@@ -106,7 +107,9 @@ std::string spaceYaml(const std::string& name, const std::string& description, c
   pair("bitdepth", "32f");
   pair("description", description);
   pair("isdata", "false");
-  pair("encoding", "scene-linear");
+  if (wall == nullptr || wall->signalFile.empty()) {
+    pair("encoding", "scene-linear");
+  }
   yaml << YAML::Key << "from_scene_reference" << YAML::Value << YAML::VerbatimTag("GroupTransform") << YAML::Block
        << YAML::BeginMap << YAML::Key << "children" << YAML::Value << YAML::Block << YAML::BeginSeq;
   if (!interchange.reference.empty()) {
@@ -122,6 +125,11 @@ std::string spaceYaml(const std::string& name, const std::string& description, c
     pair("min_in_value", "0");
     pair("min_out_value", "0");
     yaml << YAML::EndMap;
+    if (!wall->signalFile.empty()) {
+      yaml << YAML::VerbatimTag("FileTransform") << YAML::Flow << YAML::BeginMap;
+      pair("src", wall->signalFile);
+      yaml << YAML::EndMap;
+    }
   }
   yaml << YAML::EndSeq << YAML::EndMap << YAML::EndMap << YAML::EndSeq;
   return std::string(yaml.c_str()) + "\n";
@@ -137,10 +145,39 @@ void check(const std::string& name, const ConfigFacts& facts, const std::string&
   }
 }
 
+/// How a config names a file, and the folder that its search_path needs for it; empty: none.
+struct FileName {
+  std::string src;
+  std::string folder;
+};
+
+/// As configs write paths on every system.
+std::string slashed(const std::filesystem::path& path) {
+  std::string text = spectral::utf8(path);
+  std::replace(text.begin(), text.end(), static_cast<char>(std::filesystem::path::preferred_separator), '/');
+  return text;
+}
+
+FileName nameFor(const std::filesystem::path& file, const std::filesystem::path& config, const ConfigFacts& facts) {
+  namespace fs = std::filesystem;
+  const fs::path relative = fs::absolute(file).lexically_relative(fs::absolute(config).parent_path());
+  const std::string folder = relative.has_parent_path() ? slashed(relative.parent_path()) : ".";
+  if (std::find(facts.searchPath.begin(), facts.searchPath.end(), folder) != facts.searchPath.end()) {
+    return {spectral::utf8(relative.filename()), ""};
+  }
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./";
+  if (folder.find_first_not_of(kPlain) != std::string::npos) {
+    throw InputError(spectral::utf8(file), "folder", folder,
+                     "cannot be added to the config's search_path; write beside it");
+  }
+  return {spectral::utf8(relative.filename()), folder};
+}
+
 }  // namespace
 
 std::string stageConfigText(const StageMatrices& stage, const spectral::DataLibrary& library,
-                            const std::filesystem::path& file, const std::filesystem::path& base) {
+                            const std::filesystem::path& file, const std::filesystem::path& base,
+                            const std::filesystem::path& signalFile) {
   const std::string where = base.empty() ? spectral::utf8(file) : spectral::utf8(base);
   const ConfigDocument document =
       base.empty() ? ConfigDocument(newConfigText(stage.name, "LED stage " + stage.name + ", by metamer", "", library),
@@ -156,14 +193,16 @@ std::string stageConfigText(const StageMatrices& stage, const spectral::DataLibr
                               "scene-linear",
                               "Correction of what the camera recorded on the stage (Q)",
                               {ConfigStep(stage.correctedFromCamera)}};
-  for (const std::string& name : {camera, outOfFrustum, inFrustum, correction.name}) {
+  const std::string outSignal = stage.name + " signal out of frustum";
+  const std::string inSignal = stage.name + " signal in frustum";
+  for (const std::string& name : {camera, outOfFrustum, inFrustum, outSignal, inSignal, correction.name}) {
     check(name, document.facts(), where);
   }
   const Interchange interchange = interchangeOf(document, where);
   const Eigen::Matrix3d cameraFromAces = acesFromCamera(stage, library).inverse();
-  const Wall out{stage.wallFromContent, Eigen::Vector3d::Zero()};
-  const Wall in{stage.frustumFromContent, stage.frustumOffset};
-  const std::string spaces =
+  Wall out{stage.wallFromContent, Eigen::Vector3d::Zero(), ""};
+  Wall in{stage.frustumFromContent, stage.frustumOffset, ""};
+  std::string spaces =
       spaceYaml(camera, "The camera's linear RGB, as recorded", interchange, cameraFromAces, nullptr) + "\n" +
       spaceYaml(outOfFrustum,
                 "Linear drives of the wall outside the camera's view (M); put the panel's own curve behind it",
@@ -173,7 +212,20 @@ std::string stageConfigText(const StageMatrices& stage, const spectral::DataLibr
                 "Linear drives of the wall in the camera's view (N and the black offset); put the panel's own curve "
                 "behind it",
                 interchange, cameraFromAces, &in);
-  std::string text = document.with(looksYaml({correction}), "", "", spaces);
+  std::string folder;
+  if (!signalFile.empty()) {
+    const FileName name = nameFor(signalFile, file, document.facts());
+    out.signalFile = in.signalFile = name.src;
+    folder = name.folder;
+    spaces +=
+        "\n" +
+        spaceYaml(outSignal, "What the wall is sent outside the camera's view: M, and its EOTF undone", interchange,
+                  cameraFromAces, &out) +
+        "\n" +
+        spaceYaml(inSignal, "What the wall is sent in the camera's view: N, the black offset, and its EOTF undone",
+                  interchange, cameraFromAces, &in);
+  }
+  std::string text = document.with(looksYaml({correction}), "", folder, spaces);
   checkLoads(text, document.facts(), std::filesystem::absolute(file).parent_path(), {}, where);
   return text;
 }

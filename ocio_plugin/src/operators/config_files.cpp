@@ -46,7 +46,7 @@ class FileCheck {
       throw spectral::InputError(m_where, "src", source, "is a device, pipe or folder; name a LUT file");
     }
     if (std::filesystem::file_size(file, none) <= kMostReferring) {
-      refuseEndlessLut(file);
+      refuseOddLut(file);
     }
   }
 

@@ -9,6 +9,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
+#include "operators/cube_domain.h"
 
 namespace metamer::ocio {
 namespace {
@@ -93,10 +94,13 @@ void follow(const fs::path& file, std::vector<fs::path>& way, std::vector<fs::pa
 
 }  // namespace
 
-void refuseEndlessLut(const fs::path& file) {
+void refuseOddLut(const fs::path& file) {
   std::error_code none;
   if (fs::exists(file, none) && !fs::is_regular_file(file, none)) {
     throw InputError(spectral::utf8(file), "LUT", "", "is a device, pipe or folder; give a LUT file");
+  }
+  if (spectral::lowerCase(spectral::utf8(file.extension())) == ".cube") {
+    refuseOddDomain(file, startOf(file));
   }
   filesReferredTo(file);
 }

@@ -26,7 +26,7 @@ PixelProcessor::PixelProcessor(const OCIO::ConstTransformRcPtr& transform) {
 }
 
 PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
-  refuseEndlessLut(file);
+  refuseOddLut(file);
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) {
     throw spectral::MissingFileError(spectral::utf8(file), "LUT", "", "there is no such file; check the path");

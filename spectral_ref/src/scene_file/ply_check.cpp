@@ -183,6 +183,9 @@ class PlyChecker {
     if (!(count >= 0)) {
       refuse(m_place, spectral::numberText(count), "is no count of a list; export the mesh again");
     }
+    if (property.isIndices && count == 0) {
+      refuse(m_place, "0", "has no vertices; mend the mesh");  // Assimp's triangulation ends the program
+    }
     for (double i = 0; i < count; ++i) {
       const double value = readNumber(property.type);
       if (property.isIndices &&

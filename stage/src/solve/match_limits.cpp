@@ -18,8 +18,6 @@ using spectral::InputError;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Drives this near to a limit are at it.
 constexpr double kAtLimit = 1e-6;
-constexpr int kFewestSamples = 20;
-constexpr int kMostSamples = 100'000;
 
 double limitOf(const DriveLimits& limits, Eigen::Index emitter) {
   return limits.upper.size() == 0 ? kInfinite : limits.upper[emitter];
@@ -85,13 +83,17 @@ std::optional<LimitCost> costOfLimits(const MatchOutcome& within, const MatchWit
   return cost;
 }
 
-DriveSteps stepsOf(const MatchOutcome& outcome, const std::string& unit, const Eigen::VectorXd& full, double level) {
+DriveSteps stepsOf(const MatchOutcome& outcome, const std::string& unit, const Eigen::VectorXd& full, double level,
+                   const std::vector<PanelEotf>& eotfs) {
   const double steps = unit == "percent" ? 10000 : unit == "dmx8" ? 255 : unit == "dmx16" ? 65535 : 0;
   if (steps == 0) {
     throw InputError("", "unit", unit, "must be percent, dmx8 or dmx16");
   }
   spectral::requireAsMany("full drives", full.size(), "the drives", outcome.match.drives.size());
   spectral::requireAbove("level", level, 0);
+  if (!eotfs.empty()) {
+    spectral::requireAsMany("ramps", static_cast<std::int64_t>(eotfs.size()), "the drives", full.size());
+  }
   DriveSteps result;
   result.unit = unit;
   result.values.resize(full.size());
@@ -108,66 +110,15 @@ DriveSteps stepsOf(const MatchOutcome& outcome, const std::string& unit, const E
                               "free at the cost of light",
                               100 * share));
     }
-    const double rounded = std::round(steps * std::min(share, 1.0));
+    const double light = std::min(share, 1.0);
+    const double rounded = std::round(steps * (eotfs.empty() ? light : eotfs[emitter].driveFor(light)));
     result.values[k] = unit == "percent" ? rounded / 100 : rounded;
-    made += rounded / steps * whole / level * outcome.emitterCharts[emitter];
+    const double given = eotfs.empty() ? rounded / steps : eotfs[emitter].lightOf(rounded / steps);
+    made += given * whole / level * outcome.emitterCharts[emitter];
   }
   const auto summary = summaryOf(chartDifferences(made, outcome.wanted, outcome.xyzFromResponse, outcome.white));
   result.meanDifference = summary.mean;
   result.maxDifference = summary.max;
-  return result;
-}
-
-MatchIntervals matchIntervals(const std::vector<ChartTable>& emitterCharts, const ChartTable& target,
-                              const MatchOfCharts& match, const IntervalOptions& options) {
-  spectral::requireWithin("noise", options.noise.relative, 0, 1);
-  spectral::requireWithin("noise floor", options.noise.floor, 0, std::numeric_limits<double>::max());
-  spectral::requireWithin("samples", options.samples, kFewestSamples, kMostSamples);
-  const MatchOutcome centre = match(emitterCharts, target);
-  std::vector<Eigen::VectorXd> drives(static_cast<std::size_t>(options.samples));
-  std::vector<double> means(drives.size());
-  const auto body = [&](int i) {
-    const auto sample = static_cast<std::uint64_t>(i);
-    std::uint64_t place = 0;
-    const auto noisy = [&](ChartTable table) {
-      for (double& value : table.rgb.reshaped()) {
-        value += std::hypot(options.noise.relative * value, options.noise.floor) *
-                 normalNumber(options.seed, sample, place++);
-      }
-      return table;
-    };
-    std::vector<ChartTable> charts;
-    for (const ChartTable& chart : emitterCharts) {
-      charts.push_back(noisy(chart));
-    }
-    const MatchOutcome drawn = match(std::move(charts), noisy(target));
-    drives[static_cast<std::size_t>(i)] = drawn.match.drives;
-    means[static_cast<std::size_t>(i)] = summaryOf(differencesOf(drawn)).mean;
-  };
-  if (options.runAll) {
-    options.runAll(options.samples, body);
-  } else {
-    for (int i = 0; i < options.samples; ++i) {
-      body(i);
-    }
-  }
-  MatchIntervals result;
-  result.samples = options.samples;
-  result.noise = options.noise;
-  const Eigen::Index emitters = centre.match.drives.size();
-  result.drives = {Eigen::VectorXd(emitters), Eigen::VectorXd(emitters)};
-  std::vector<double> values(drives.size());
-  for (Eigen::Index k = 0; k < emitters; ++k) {
-    for (std::size_t s = 0; s < drives.size(); ++s) {
-      values[s] = drives[s][k];
-    }
-    const Interval<double> ends = endsOf(values);
-    result.drives.low[k] = ends.low;
-    result.drives.high[k] = ends.high;
-  }
-  const Interval<double> ends = endsOf(means);
-  const double mean = summaryOf(differencesOf(centre)).mean;
-  result.mean = {std::max(0.0, 2 * mean - ends.high), std::max(0.0, 2 * mean - ends.low)};
   return result;
 }
 

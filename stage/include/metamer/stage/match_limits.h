@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "metamer/stage/match_outcome.h"
+#include "metamer/stage/panel_eotf.h"
 #include "metamer/stage/wall_intervals.h"
 
 namespace metamer::stage {
@@ -55,8 +56,10 @@ struct DriveSteps {
 /// @param unit    "percent", "dmx8" (0 ... 255) or "dmx16" (0 ... 65535)
 /// @param full    the drive of 100 % of each emitter, above 0; infinite ones count as 1
 /// @param level   of a LevelMatch; 1 otherwise
-/// @throws spectral::InputError: an unknown unit, a drive above full
-DriveSteps stepsOf(const MatchOutcome& outcome, const std::string& unit, const Eigen::VectorXd& full, double level = 1);
+/// @param eotfs   of each emitter, whose light is not proportional to what is sent; empty: it is
+/// @throws spectral::InputError: an unknown unit, a drive above full, eotfs that are not as many as the drives
+DriveSteps stepsOf(const MatchOutcome& outcome, const std::string& unit, const Eigen::VectorXd& full, double level = 1,
+                   const std::vector<PanelEotf>& eotfs = {});
 
 /// 95 % intervals of drives that were matched from captured charts.
 struct MatchIntervals {
@@ -64,7 +67,7 @@ struct MatchIntervals {
   CaptureNoise noise;
   std::string noiseIs;  ///< "stated", "estimated from the charts", "assumed"
   Interval<Eigen::VectorXd> drives;
-  Interval<double> mean;  ///< CIEDE2000; turned round the match's own, as wallIntervals() does
+  Interval<double> mean;  ///< CIEDE2000; as loweredEnds()
 };
 
 /// The match of charts once more.
