@@ -305,6 +305,8 @@ class Bake(LutgenTest):
         self.assertEqual(certificate["transform"]["representation"], "homogeneous map")
         text = self.assertWorks("bake", *DAY_TO_TUNGSTEN, "--stdout", "--format", "glsl", "--quiet")
         self.assertIn("#version 430", text)
+        self.assertWorks("bake", *DAY_TO_TUNGSTEN, "-o", "a.dctl")
+        self.assertIn("DEFINE_CUBE_LUT(metamerTable)", (self.folder / "a.dctl").read_text(encoding="utf-8"))
         for options, word in ((["--size", "33"], "size"), (["--shaper", "LogC3"], "shaper"), (["--sampled"], "sampled")):
             self.assertFails("bake", *DAY_TO_TUNGSTEN, *options, "-o", "b.cl", says=[word, ".cl", "leave it out"])
         self.assertFails("bake", *DAY_TO_TUNGSTEN, "-o", "b.cl", "--format", "glsl", says=["*.glsl"])

@@ -70,6 +70,7 @@ const std::vector<ShaderFormat>& shaderFormats() {
       {"metal", ".metal", "Metal; the exact map, linear pixels of any exposure", DeviceDialect::Metal},
       {"glsl", ".glsl", "GLSL 4.30; the exact map, linear pixels of any exposure", DeviceDialect::Glsl},
       {"hlsl", ".hlsl", "HLSL, shader model 5; the exact map, linear pixels of any exposure", DeviceDialect::Hlsl},
+      {"dctl", ".dctl", "DCTL of DaVinci Resolve; a fine grid of the map, linear pixels of any exposure"},
   };
   return formats;
 }
@@ -103,10 +104,23 @@ BakedText bakeShaderText(const sip::Recipe& recipe, const spectral::DataLibrary&
   certificate.format = format.name;
   judged.tell(kBuiltShare);
   // Twice: what the file says of itself is known before it is written, what the certificate says after.
-  judged.certify([&](std::span<float> rgba) { map.apply(rgba); });
-  std::string text = shaderText(format.dialect, sip::deviceTables(map), descriptionOf(certificate));
-  const sip::DeviceTables tables = shaderTables(text);
-  judged.certify([&](std::span<float> rgba) { sip::applyDeviceKernel(sip::DeviceKernel::Map, tables, rgba); });
+  sip::ChromaticityGrid grid;
+  if (format.dialect) {
+    judged.certify([&](std::span<float> rgba) { map.apply(rgba); });
+  } else {
+    grid = sip::chromaticityGrid(map);
+    certificate.size = map.identity ? 0 : sip::ChromaticityGrid::kSide;
+    judged.certify([&](std::span<float> rgba) { sip::applyChromaticityGrid(grid, rgba); });
+  }
+  std::string text;
+  if (format.dialect) {
+    text = shaderText(*format.dialect, sip::deviceTables(map), descriptionOf(certificate));
+    const sip::DeviceTables tables = shaderTables(text);
+    judged.certify([&](std::span<float> rgba) { sip::applyDeviceKernel(sip::DeviceKernel::Map, tables, rgba); });
+  } else {
+    text = shaderText(grid, descriptionOf(certificate));
+    judged.certify([&](std::span<float> rgba) { sip::applyChromaticityGrid(grid, rgba); });
+  }
   if (options.tolerance && certificate.error.p99 > *options.tolerance) {
     throw InputError("", "tolerance", spectral::threeDigits(*options.tolerance),
                      "is less than the map has: its 99th percentile is " +

@@ -82,14 +82,29 @@ std::string bytesOf(const sip::DeviceTables& tables) {
   return bytes;
 }
 
-}  // namespace
-
-std::string shaderText(sip::DeviceDialect dialect, const sip::DeviceTables& tables, const LutDescription& description) {
+std::string headOf(const LutDescription& description) {
   std::string text = commentOf(description.name) + commentOf(description.id);
   for (const std::string& line : description.lines) {
     text += commentOf(line);
   }
-  text += commentOf({});
+  return text + commentOf({});
+}
+
+}  // namespace
+
+std::string shaderText(const sip::ChromaticityGrid& grid, const LutDescription& description) {
+  return headOf(description) +
+         comments(
+             "A DCTL of DaVinci Resolve: put it into the LUT folder, and into a node as ResolveFX DCTL. It takes "
+             "linear\n"
+             "pixels of that space: a Color Space Transform before it makes them (its output gamma Linear), one after "
+             "it\n"
+             "goes back. Exposure is in stops, before the transform; Mix 0 is the picture as it was.\n") +
+         "\n" + sip::dctlText(grid);
+}
+
+std::string shaderText(sip::DeviceDialect dialect, const sip::DeviceTables& tables, const LutDescription& description) {
+  std::string text = headOf(description);
   text += comments(
       "metamerMap() takes a linear pixel of that space, of any exposure. Its tables, nodes (four floats each) and "
       "cells\n"

@@ -73,7 +73,10 @@ TEST(ShaderBakeTest, EveryLanguageHoldsTheSameTables) {
   const sip::DeviceTables tables = shaderTables(sodium().text);
   const TemporaryFolder folder;
   for (const ShaderFormat& format : shaderFormats()) {
-    const std::string text = shaderText(format.dialect, tables, {"look", "id", {"a line"}});
+    if (!format.dialect) {
+      continue;
+    }
+    const std::string text = shaderText(*format.dialect, tables, {"look", "id", {"a line"}});
     const sip::DeviceTables again = shaderTables(text);
     EXPECT_TRUE(again.cells == tables.cells) << format.name;
     EXPECT_EQ(std::memcmp(again.nodes.data(), tables.nodes.data(), sizeof(tables.nodes[0]) * tables.nodes.size()), 0);
@@ -112,6 +115,23 @@ TEST(ShaderBakeTest, TheCertificateIsTheMaps) {
   EXPECT_GT(certificate.error.count, 10'000U);
   EXPECT_NE(certificate.json().find("\"representation\": \"homogeneous map\""), std::string::npos);
   EXPECT_NE(sodium().text.find("homogeneous map"), std::string::npos);
+}
+
+/// The probes of a certificate are some 24,000 colours over the gamut, of twenty exposures, and those that its search
+/// adds.
+TEST(ShaderBakeTest, DctlIsWithinAQuarter) {
+  for (const auto& [light, adaptation] : {std::pair{"HP1", 0.0}, {"A", 0.5}, {"LED-RGB1", 1.0}}) {
+    sip::Recipe recipe = recipeOf("D65", light);
+    recipe.scene = {};
+    recipe.adaptation = adaptation;
+    const BakedText baked = bakeShaderText(recipe, testLibrary(), formatNamed("dctl"));
+    EXPECT_LE(baked.certificate.error.p99, 0.25) << light;
+    EXPECT_LE(baked.certificate.error.max, 2.0) << light;
+    EXPECT_EQ(baked.certificate.size, 513);
+    EXPECT_NE(baked.text.find("DEFINE_CUBE_LUT(metamerTable)\n{\nLUT_3D_SIZE 65\n"), std::string::npos);
+  }
+  const BakedText same = bakeShaderText(recipeOf("D65", "D65"), testLibrary(), formatNamed("dctl"));
+  EXPECT_LE(same.certificate.error.max, 1e-3);
 }
 
 TEST(ShaderBakeTest, AnIdentityStaysOne) {

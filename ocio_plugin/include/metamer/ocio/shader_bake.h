@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,10 @@ namespace metamer::ocio {
 
 /// A language that a transform is written in for GPUs and viewers.
 struct ShaderFormat {
-  std::string name;       ///< "opencl", ...
-  std::string extension;  ///< with its dot
-  std::string use;        ///< one line for a list
-  sip::DeviceDialect dialect = sip::DeviceDialect::OpenCl;
+  std::string name;                                ///< "opencl", ...
+  std::string extension;                           ///< with its dot
+  std::string use;                                 ///< one line for a list
+  std::optional<sip::DeviceDialect> dialect = {};  ///< of the exact map; none: DCTL, which holds a grid of it
 };
 
 /// All that there are.
@@ -30,6 +31,7 @@ const ShaderFormat* findShaderFormat(const std::filesystem::path& file, const st
 /// space: what it does and how to use it in comments, the kernel, and its tables in a comment at the end, in base64, as
 /// compilers take megabytes of numbers slowly and devices hold few constants. The error is measured through the
 /// kernel's text, compiled for the processor, with the tables read from the written text.
+/// DCTL holds the map as a grid (sip/chromaticity_grid.h), in the cube that its language has.
 /// @param options  without size, shaper, shaper size, stops or nodes that are sampled: a map has none
 /// @throws spectral::InputError: an option that a map has no use for, a space that is not linear or is a config's, a
 ///         tolerance that the map does not hold; as bake()
