@@ -20,6 +20,7 @@ struct CommandName {
 inline constexpr CommandName kApply{"apply", "Apply a recipe, exactly, or a LUT file to a picture or to frames"};
 inline constexpr CommandName kCompare{"compare",
                                       "Tell how far two transforms or pictures are apart; exit 3 beyond the tolerance"};
+inline constexpr CommandName kJob{"job", "Write frames of a sequence, or looks of a show, as a job for a farm"};
 inline constexpr CommandName kReport{"report", "One HTML page that shows what a recipe does, and how well"};
 inline constexpr CommandName kSkin{"skin", "Skin: what it is made of, edits of that, and charts of skins"};
 inline constexpr CommandName kStage{"stage", "LED stages: walls, fixtures and what they do to colours"};
@@ -28,8 +29,8 @@ inline constexpr CommandName kValidate{"validate",
                                        "Render scenes under both lights of a recipe and judge its transform by them"};
 
 /// What the program lutgen-pictures does.
-inline constexpr std::array<CommandName, 7> kPictureCommands = {kApply, kCompare, kReport,  kSkin,
-                                                                kStage, kUplift,  kValidate};
+inline constexpr std::array<CommandName, 8> kPictureCommands = {kApply, kCompare, kJob,    kReport,
+                                                                kSkin,  kStage,   kUplift, kValidate};
 
 /// Each adds one subcommand, which does its work when the command line has been parsed.
 void addBake(CLI::App& application);

@@ -9,6 +9,8 @@ namespace metamer::lutgen {
 /// Each adds one subcommand, which does its work when the command line has been parsed.
 void addApply(CLI::App& application);
 void addCompare(CLI::App& application);
+/// @param taskWords  options of every task
+void addJob(CLI::App& application, const std::vector<std::string>& taskWords);
 void addReport(CLI::App& application);
 void addSkin(CLI::App& application);
 void addStage(CLI::App& application);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace metamer::spectral_ref {
 
@@ -12,6 +13,11 @@ namespace metamer::spectral_ref {
 void addRender(CLI::App& application);
 void addMerge(CLI::App& application);
 void addMeasure(CLI::App& application);
+/// @param renderWords  options of render for every task
+void addJob(CLI::App& application, std::vector<std::string> renderWords);
+
+/// Most samples of a pixel.
+inline constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 32U;
 
 /// FIRST:END of a flag. @throws CLI::ValidationError where it is none
 std::array<std::uint64_t, 2> parseRange(const std::string& flag, const std::string& text);

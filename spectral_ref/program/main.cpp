@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "checked_words.h"
 #include "commands.h"
 #include "exr_channels.h"
 #include "metamer/spectral/interruption.h"
@@ -54,12 +55,14 @@ void warn(const std::string& message) {
 int main(int argumentCount, char** arguments) {
   metamer::spectral::endCleanlyBySignals("spectral_ref");
   metamer::spectral::readSpectraFromExr();
+  std::vector<std::string> taskWords = metamer::farm::takeTaskWords(argumentCount, arguments);
   CLI::App application("Reference spectral path tracer: scenes to pictures with error bars.", "spectral_ref");
   application.set_version_flag("--version", std::string("spectral_ref ") + METAMER_VERSION);
   application.require_subcommand(1);
   metamer::spectral_ref::addRender(application);
   metamer::spectral_ref::addMerge(application);
   metamer::spectral_ref::addMeasure(application);
+  metamer::spectral_ref::addJob(application, std::move(taskWords));
   for (CLI::App* command : application.get_subcommands([](const CLI::App*) { return true; })) {
     command->parse_complete_callback([command] { refuseWhatIsNotFinite(*command); });
   }

@@ -30,7 +30,6 @@ namespace {
 using spectral::InputError;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 32U;
 constexpr std::uint64_t kDefaultSamples = 64;
 /// Between two looks at the clock, the error and the signal.
 constexpr double kSecondsAStep = 0.25;
@@ -47,6 +46,7 @@ struct RenderArguments {
   std::uint32_t seed = 0;
   int threads = 0;
   bool resume = false;
+  std::string progress = "auto";
   double checkpointSeconds = 30;
   std::string guideDump;
   std::vector<std::string> guidePixels;
@@ -127,6 +127,10 @@ class RenderJob {
   }
 
   void run() {
+    if (isThere()) {
+      warn(m_arguments.output + ": samples " + m_arguments.range + " are there already");
+      return;
+    }
     std::signal(SIGINT, onSignal);
     std::signal(SIGTERM, onSignal);
     const bool isFinished = renderUntilDone();
@@ -165,6 +169,22 @@ class RenderJob {
     return spectral::pathOf(arguments.output + ".checkpoint");
   }
 
+  /// Whether a part that was asked for is rendered already: a task of a farm may be run again.
+  /// @throws InputError where the file is something else
+  bool isThere() const {
+    std::error_code none;
+    const std::filesystem::path file = spectral::pathOf(m_arguments.output);
+    if (!m_arguments.resume || m_arguments.range.empty() || !std::filesystem::exists(file, none)) {
+      return false;
+    }
+    const auto [film, notes] = readExrState(file);
+    if (notes != this->notes() || film.ranges() != SampleRanges{m_range}) {
+      throw InputError(m_arguments.output, "samples", rangesText(film.ranges()),
+                       "are of another scene, build, options or range; delete the file, or name another");
+    }
+    return true;
+  }
+
   /// @return false where a signal stopped it
   bool renderUntilDone() {
     const Clock::time_point start = Clock::now();
@@ -173,7 +193,7 @@ class RenderJob {
     Clock::time_point measured = start;
     std::optional<double> error;
     const Eigen::Matrix3d toXyz = xyzFromColour(m_scene.film);
-    Progress progress;
+    Progress progress(progressFormNamed(m_arguments.progress));
     while (m_renderer->nextSample() < m_range[1]) {
       double step = kSecondsAStep;
       if (m_arguments.seconds > 0) {
@@ -186,7 +206,7 @@ class RenderJob {
       const double elapsed = secondsSince(start);
       const auto done = static_cast<double>(m_renderer->nextSample() - begun);
       // The error is measured ever more rarely: at most a tenth of the time goes into it.
-      if ((progress.isShown() || m_arguments.targetError > 0) && secondsSince(measured) > 10.0 * m_secondsToMeasure &&
+      if ((progress.isDue() || m_arguments.targetError > 0) && secondsSince(measured) > 10.0 * m_secondsToMeasure &&
           m_renderer->film().samples() >= 2 * kReplicates) {
         const Clock::time_point before = Clock::now();
         error = pictureError(m_renderer->film(), toXyz);
@@ -299,7 +319,14 @@ void addRender(CLI::App& application) {
   command->add_option("--seed", arguments->seed, "Another seed, other noise; 0 by default");
   command->add_option("--threads", arguments->threads, "Threads; all by default. Changes no bit of the picture")
       ->check(CLI::Range(1, 4096));
-  command->add_flag("--resume", arguments->resume, "Go on from OUTPUT.checkpoint where there is one");
+  command->add_flag(
+      "--resume", arguments->resume,
+      "Go on from OUTPUT.checkpoint where there is one; with --samples, nothing to do where OUTPUT has them");
+  command
+      ->add_option("--progress", arguments->progress,
+                   "auto: a line on a terminal, else as lines; lines: one every half minute, for a log; openjd: as "
+                   "engines of Open Job Description read it; off")
+      ->check(CLI::IsMember({"auto", "lines", "openjd", "off"}));
   command->add_option("--checkpoint", arguments->checkpointSeconds, "Seconds between checkpoints; 30 by default")
       ->check(CLI::Range(0.0, 1e9));
   auto* dump = command->add_option("--guide-dump", arguments->guideDump,

@@ -52,7 +52,7 @@ class Pages(unittest.TestCase):
 
     def run_in_folder(self, command, what):
         environment = {key: value for key, value in os.environ.items() if key != "OCIO"}
-        environment["PATH"] = os.environ["METAMER_BIN"] + os.pathsep + environment["PATH"]
+        environment["PATH"] = os.pathsep.join((os.environ["METAMER_BIN"], str(Path(sys.executable).parent), environment["PATH"]))
         run = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True, timeout=900)
         self.assertEqual(run.returncode, 0, f"{what}:\n{run.stdout}{run.stderr}")
         return run.stdout
