@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import OpenEXR
 
-from lutgen import LutgenTest
+from lutgen import LutgenTest, lutgen
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -121,6 +121,24 @@ class Fluorescence(LutgenTest):
                 shown = [self.assertWorks("spectrum", "show", one, "--lights", light).splitlines()[1]
                          for one in ("dayglo.csv", file)]
                 self.assertEqual(shown[0], shown[1])
+
+    def test_a_set_brighter_than_white_is_said_to_be(self):
+        nm = np.arange(380, 781, 10)
+        surfaces = [0.5 + 0.3 * np.sin(nm / 60 + k) for k in range(6)]
+        surfaces[2][20] = 1.15
+        for name, most in (("bright", 1.15), ("white", 1.0)):
+            surfaces[2][20] = most
+            rows = [",".join(f"{value:.5f}" for value in row) for row in zip(nm, *surfaces)]
+            (self.folder / f"{name}.csv").write_text("nm,a,b,c,d,e,f\n" + "\n".join(rows))
+            (self.folder / f"{name}.yaml").write_text(
+                "metamer: 1\nname: x\nspace: ACEScg\ninput: {illuminant: D65}\noutput: {illuminant: A}\n"
+                f"scene: {{kind: dataset, set: {name}.csv}}\n")
+            run = lutgen("bake", f"{name}.yaml", "-o", f"{name}.spi3d", "--size", "5", folder=self.folder)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            notes = json.loads((self.folder / f"{name}.spi3d.json").read_text()).get("notes", [])
+            for said in (run.stderr, "\n".join(notes)):
+                expected = "1 of 6 reflect more than arrives, up to 1.15 at 580 nm: a reflectance cannot hold this"
+                self.assertEqual(expected in said, name == "bright", said)
 
     def test_what_no_surface_does_is_refused_in_a_line(self):
         text = (self.folder / "dayglo.csv").read_text()

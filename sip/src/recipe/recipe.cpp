@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/sip/recipe.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -307,6 +308,34 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
   return spec;
 }
 
+namespace {
+
+/// Of a user's own set of reflectances: what is brighter than white is named once, with the brightest place.
+std::vector<std::string> notesOfDataset(const Recipe& recipe, const TransformSpec& spec) {
+  constexpr double kBrightest = 1.02;  // what measurement makes of white
+  double most = kBrightest;
+  Eigen::Index place = 0;
+  std::size_t count = 0;
+  const bool isFile =
+      recipe.scene.kind == ReferenceScene::Kind::Dataset && spectral::looksLikeSpectralFile(recipe.scene.set);
+  for (const spectral::DomainSamples& sample : isFile ? spec.scene.samples : std::vector<spectral::DomainSamples>()) {
+    Eigen::Index at = 0;
+    const double brightest = sample.maxCoeff(&at);
+    count += brightest > kBrightest ? 1 : 0;
+    place = brightest > most ? at : place;
+    most = std::max(most, brightest);
+  }
+  if (count == 0) {
+    return {};
+  }
+  return {std::to_string(count) + " of " + std::to_string(spec.scene.samples.size()) +
+          " reflect more than arrives, up to " + spectral::threeDigits(most) + " at " +
+          std::to_string(spectral::kDomainStartNm + place) +
+          " nm: a reflectance cannot hold this; fluorescence, or a white that was set too low"};
+}
+
+}  // namespace
+
 std::vector<std::string> notesOf(const Recipe& recipe, const TransformSpec& spec) {
   std::vector<std::string> notes;
   const auto add = [&](const std::string& role, const std::string& name, const spectral::Spectrum& spectrum) {
@@ -324,8 +353,10 @@ std::vector<std::string> notesOf(const Recipe& recipe, const TransformSpec& spec
   };
   addSide("input", recipe.input, spec.input);
   addSide("output", recipe.output, spec.output);
-  for (const std::string& note : notesOfPairs(spec)) {
-    notes.push_back("scene.set " + recipe.scene.set + ": " + note);
+  for (const auto& found : {notesOfPairs(spec), notesOfDataset(recipe, spec)}) {
+    for (const std::string& note : found) {
+      notes.push_back("scene.set " + recipe.scene.set + ": " + note);
+    }
   }
   // Who says that the light's colour was taken out may not expect to see the next one's.
   if (recipe.balanced && recipe.balanced->kind != Balance::Kind::None && recipe.adaptation == 0.0 &&
