@@ -4,6 +4,7 @@
 
 #include "engines.h"
 #include "metamer/spectral/path_text.h"
+#include "metamer/spectral/text.h"
 
 namespace metamer::farm {
 namespace {
@@ -38,12 +39,6 @@ std::string textOf(const Word& word) {
   return text + "\"";
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
-/// Comments of sbatch end a value at white space unless it is quoted.
 std::string directive(const std::string& text) {
   return "#SBATCH " + text + "\n";
 }
@@ -52,8 +47,9 @@ std::string scriptOf(const FarmJob& job, const JobStep& step, const std::filesys
   const bool isArray = !step.values.empty();
   std::string text = "#!/bin/bash\n";
   text += directive("--job-name=\"" + job.name + " " + step.name + "\"");
-  text += directive("--output=\"" +
-                    spectral::utf8(folder / "logs" / (lower(step.name) + (isArray ? ".%a" : "") + ".log")) + "\"");
+  text += directive(
+      "--output=\"" +
+      spectral::utf8(folder / "logs" / (spectral::lowerCase(step.name) + (isArray ? ".%a" : "") + ".log")) + "\"");
   text += directive("--open-mode=append");
   text += directive("--requeue");
   if (isArray) {
@@ -105,11 +101,11 @@ std::vector<JobText> slurmScripts(const FarmJob& job, const std::filesystem::pat
       "set -eu\n"
       "cd \"$(dirname \"$0\")\"\n";
   for (const JobStep& step : job.steps) {
-    const std::string name = lower(step.name);
+    const std::string name = spectral::lowerCase(step.name);
     texts.push_back({name + ".sh", scriptOf(job, step, folder)});
     submit += name + "=$(sbatch --parsable " +
-              (step.after.empty() ? "" : "--dependency=\"afterok:$" + lower(step.after) + "\" ") + "\"$@\" " + name +
-              ".sh)\n";
+              (step.after.empty() ? "" : "--dependency=\"afterok:$" + spectral::lowerCase(step.after) + "\" ") +
+              "\"$@\" " + name + ".sh)\n";
     submit += "echo \"" + step.name + ": job $" + name + "\"\n";
   }
   texts.push_back({"submit.sh", submit});

@@ -12,15 +12,13 @@
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/platform.h"
 #include "metamer/spectral_ref/exr_film.h"
+#include "metamer/spectral_ref/renderer.h"
 #include "metamer/spectral_ref/scene_reader.h"
 
 namespace metamer::spectral_ref {
 namespace {
 
 using farm::Piece;
-
-/// Chunks begin at multiples of as many samples: what resampling learns starts anew there, and replicates take turns.
-constexpr std::uint64_t kSamplesTogether = 16;
 
 struct JobArguments {
   std::string scene;
@@ -31,7 +29,7 @@ struct JobArguments {
   farm::TargetOptions target;
 };
 
-/// First and last but one sample of each chunk, as equal as whole blocks of samples are.
+/// Ranges of samples, as equal as whole blocks of those that belong together are.
 /// @throws CLI::ValidationError where there are fewer blocks than chunks
 SampleRanges chunksOf(std::uint64_t samples, std::uint64_t count) {
   const std::uint64_t blocks = (samples + kSamplesTogether - 1) / kSamplesTogether;

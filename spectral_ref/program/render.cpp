@@ -105,24 +105,8 @@ class RenderJob {
     for (const std::string& text : arguments.guidePixels) {
       m_guidePixels.push_back(parsePixel(text, m_scene.film));
     }
-    RenderOptions options;
-    options.seed = arguments.seed;
-    options.guiding = arguments.guiding == "on";
-    if (!arguments.guideDump.empty() && !options.guiding) {
+    if (!arguments.guideDump.empty() && arguments.guiding != "on") {
       throw CLI::ValidationError("--guide-dump", "needs --guiding on");
-    }
-    options.restir = arguments.restir == "hero"    ? Restir::Hero
-                     : arguments.restir == "lanes" ? Restir::Lanes
-                                                   : Restir::Off;
-    m_renderer = std::make_unique<Renderer>(m_scene, options, m_range[0], arguments.threads);
-    std::error_code none;
-    if (arguments.resume && std::filesystem::exists(m_checkpoint, none)) {
-      readCheckpoint(m_checkpoint,
-                     [this](const ByteSource& state) { m_renderer->restore(state, spectral::utf8(m_checkpoint)); });
-      if (m_renderer->nextSample() > m_range[1]) {
-        throw InputError(spectral::utf8(m_checkpoint), "samples", std::to_string(m_renderer->nextSample()),
-                         "are more than asked for (" + std::to_string(m_range[1]) + "); ask for more or delete it");
-      }
     }
   }
 
@@ -131,6 +115,7 @@ class RenderJob {
       warn(m_arguments.output + ": samples " + m_arguments.range + " are there already");
       return;
     }
+    prepare();
     std::signal(SIGINT, onSignal);
     std::signal(SIGTERM, onSignal);
     const bool isFinished = renderUntilDone();
@@ -183,6 +168,26 @@ class RenderJob {
                        "are of another scene, build, options or range; delete the file, or name another");
     }
     return true;
+  }
+
+  /// The renderer, with what a checkpoint holds.
+  void prepare() {
+    RenderOptions options;
+    options.seed = m_arguments.seed;
+    options.guiding = m_arguments.guiding == "on";
+    options.restir = m_arguments.restir == "hero"    ? Restir::Hero
+                     : m_arguments.restir == "lanes" ? Restir::Lanes
+                                                     : Restir::Off;
+    m_renderer = std::make_unique<Renderer>(m_scene, options, m_range[0], m_arguments.threads);
+    std::error_code none;
+    if (m_arguments.resume && std::filesystem::exists(m_checkpoint, none)) {
+      readCheckpoint(m_checkpoint,
+                     [this](const ByteSource& state) { m_renderer->restore(state, spectral::utf8(m_checkpoint)); });
+      if (m_renderer->nextSample() > m_range[1]) {
+        throw InputError(spectral::utf8(m_checkpoint), "samples", std::to_string(m_renderer->nextSample()),
+                         "are more than asked for (" + std::to_string(m_range[1]) + "); ask for more or delete it");
+      }
+    }
   }
 
   /// @return false where a signal stopped it

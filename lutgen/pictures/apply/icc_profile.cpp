@@ -8,6 +8,7 @@
 
 #include "exr/zip_block.h"
 #include "metamer/spectral/path_text.h"
+#include "metamer/spectral/png_check.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -17,30 +18,21 @@ constexpr std::size_t kColoursAt = 16;
 constexpr std::size_t kColoursEnd = 20;
 /// A larger profile is none.
 constexpr std::size_t kLargestProfile = 1U << 26U;
-constexpr std::string_view kPng("\x89PNG\r\n\x1a\n", 8);
 constexpr std::size_t kLongestName = 80;
 
 std::string coloursOf(std::string_view profile) {
   return profile.size() < kColoursEnd ? "" : std::string(profile.substr(kColoursAt, kColoursEnd - kColoursAt));
 }
 
-std::uint32_t bigEndian(const char* bytes) {
-  std::uint32_t value = 0;
-  for (int k = 0; k < 4; ++k) {
-    value = (value << 8U) | static_cast<unsigned char>(bytes[k]);
-  }
-  return value;
-}
-
 /// What a PNG's chunk iCCP holds: a name, a zero, the way of packing, the profile packed.
 std::string profileOfPng(const std::string& file) {
   std::ifstream stream(spectral::pathOf(file), std::ios::binary);
   std::array<char, 8> head{};
-  if (!stream.read(head.data(), head.size()) || std::string_view(head.data(), head.size()) != kPng) {
+  if (!stream.read(head.data(), head.size()) || std::string_view(head.data(), head.size()) != spectral::kPngSignature) {
     return "";
   }
   while (stream.read(head.data(), head.size())) {
-    const std::uint32_t size = bigEndian(head.data());
+    const std::uint32_t size = spectral::bigEndian(head.data());
     const std::string_view name(head.data() + 4, 4);
     if (name == "IDAT" || name == "IEND" || size > kLargestProfile) {
       break;  // profiles stand before pixels

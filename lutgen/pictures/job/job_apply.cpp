@@ -24,16 +24,11 @@ struct Arguments {
   farm::TargetOptions target;
 };
 
-/// Frames as the command line takes them: "1001-1010" or "1,3,5".
+/// Frames as a word of a command line: "1001-1010" or "1,3,5".
 std::string frameWord(const std::vector<int>& frames) {
-  std::string list;
-  for (const int frame : frames) {
-    list += (list.empty() ? "" : ",") + std::to_string(frame);
-  }
-  const bool isRun =
-      frames.size() > 2 && frames.front() >= 0 &&
-      std::adjacent_find(frames.begin(), frames.end(), [](int a, int b) { return b != a + 1; }) == frames.end();
-  return isRun ? std::to_string(frames.front()) + "-" + std::to_string(frames.back()) : list;
+  std::string word = framesText(frames);
+  word.erase(std::remove(word.begin(), word.end(), ' '), word.end());
+  return word;
 }
 
 std::vector<std::string> tasksOf(const std::vector<Frame>& frames, int framesATask) {

@@ -66,12 +66,8 @@ std::vector<stage::PanelEotf> eotfsOf(const std::vector<std::string>& ramps, std
   }
   std::vector<stage::PanelEotf> eotfs;
   for (const std::string& file : ramps) {
-    const stage::DriveSeries series = stage::parseDriveSeries(spectral::readTextFile(spectral::pathOf(file)), file);
-    try {
-      eotfs.push_back(stage::fitEotf(series));
-    } catch (const InputError& error) {
-      throw InputError(file, "", "", error.what());
-    }
+    const std::string text = spectral::readTextFile(spectral::pathOf(file));
+    eotfs.push_back(stage::fitEotf(stage::parseDriveSeries(text, file), file));
   }
   eotfs.resize(ramps.empty() ? 0 : emitterCount, eotfs.empty() ? stage::PanelEotf() : eotfs.front());
   return eotfs;
@@ -79,7 +75,7 @@ std::vector<stage::PanelEotf> eotfsOf(const std::vector<std::string>& ramps, std
 
 /// Solves as the level and the limits ask, and says what they cost.
 MatchAnswer answerOf(const MatchOptions& options, const stage::DriveLimits& limits, std::size_t emitterCount,
-                     const stage::MatchWithin& match) {
+                     const std::vector<stage::PanelEotf>& eotfs, const stage::MatchWithin& match) {
   MatchAnswer answer;
   if (options.level == "free") {
     stage::LevelMatch found = stage::matchAtFreeLevel(match, limits);
@@ -92,7 +88,7 @@ MatchAnswer answerOf(const MatchOptions& options, const stage::DriveLimits& limi
   if (!options.unit.empty()) {
     const auto count = static_cast<Eigen::Index>(emitterCount);
     const Eigen::VectorXd full = limits.upper.size() == 0 ? Eigen::VectorXd::Ones(count) : limits.upper;
-    answer.eotfs = eotfsOf(options.ramps, emitterCount);
+    answer.eotfs = eotfs;
     answer.steps = stage::stepsOf(answer.outcome, options.unit, full, answer.level.value_or(1), answer.eotfs);
   }
   return answer;
@@ -108,16 +104,17 @@ void describe(const MatchOptions& options, const std::string& target, MatchAnswe
 }
 
 MatchAnswer matchSpectra(const MatchOptions& options, const stage::Fixture& fixture, const spectral::Spectrum& target,
-                         const spectral::DataLibrary& library) {
+                         const std::vector<stage::PanelEotf>& eotfs, const spectral::DataLibrary& library) {
   const spectral::Observer observer = library.observer(options.observer);
   const auto materials = library.reflectances(options.reflectances).samples;
   const auto skins = stage::virtualSkins(library);
   const Eigen::Matrix3d xyzFromResponse = xyzFromResponseUnder(target, observer, library);
   const std::size_t count = fixture.names.size();
-  MatchAnswer answer = answerOf(options, limitsOf(options.limits, count), count, [&](const stage::DriveLimits& limits) {
-    return stage::matchSpectra(requestOf(options, limits), fixture, target, observer, materials, xyzFromResponse,
-                               skins);
-  });
+  MatchAnswer answer =
+      answerOf(options, limitsOf(options.limits, count), count, eotfs, [&](const stage::DriveLimits& limits) {
+        return stage::matchSpectra(requestOf(options, limits), fixture, target, observer, materials, xyzFromResponse,
+                                   skins);
+      });
   answer.outcome.reflectances = options.reflectances;
   return answer;
 }
@@ -153,7 +150,8 @@ void addNoise(const MatchOptions& options, const std::vector<stage::ChartTable>&
                                  : kAssumedNoise;
 }
 
-MatchAnswer matchCharts(const MatchOptions& options, const spectral::DataLibrary& library) {
+MatchAnswer matchCharts(const MatchOptions& options, const std::vector<stage::PanelEotf>& eotfs,
+                        const spectral::DataLibrary& library) {
   if (stage::matchMethodFromName(options.method) == stage::MatchMethod::Spectral) {
     throw InputError("--method", "method", options.method, "needs spectra: give --emitters; charts do for mim and mrm");
   }
@@ -180,7 +178,7 @@ MatchAnswer matchCharts(const MatchOptions& options, const spectral::DataLibrary
     outcome.emitters = emitters;
     return outcome;
   };
-  MatchAnswer answer = answerOf(options, limits, charts.size(), [&](const stage::DriveLimits& within) {
+  MatchAnswer answer = answerOf(options, limits, charts.size(), eotfs, [&](const stage::DriveLimits& within) {
     return named(stage::matchCharts(requestOf(options, within), charts, target, xyzFromCamera));
   });
   if (options.samples > 0) {
@@ -210,7 +208,7 @@ MatchAnswer matchCharts(const MatchOptions& options, const spectral::DataLibrary
 std::vector<MatchAnswer> answersOf(const MatchOptions& options, const spectral::DataLibrary& library) {
   std::vector<MatchAnswer> answers;
   if (!options.charts.empty()) {
-    answers.push_back(matchCharts(options, library));
+    answers.push_back(matchCharts(options, eotfsOf(options.ramps, options.charts.size()), library));
     describe(options, options.targets.front(), answers.back());
     return answers;
   }
@@ -219,12 +217,14 @@ std::vector<MatchAnswer> answersOf(const MatchOptions& options, const spectral::
                      "is of captured charts; it needs --charts");
   }
   const stage::Fixture fixture = stage::readFixture(options.emitters, library);
+  const std::vector<stage::PanelEotf> eotfs = eotfsOf(options.ramps, fixture.names.size());
   for (const std::string& target : options.targets) {
     const spectral::Spectrum lamp = library.illuminant(target);
     const std::vector<std::string> filters = options.filters.empty() ? std::vector<std::string>{""} : options.filters;
     for (const std::string& filter : filters) {
       const bool isBare = filter.empty() || filter == "none";
-      answers.push_back(matchSpectra(options, fixture, isBare ? lamp : filteredLight(lamp, filter, library), library));
+      answers.push_back(
+          matchSpectra(options, fixture, isBare ? lamp : filteredLight(lamp, filter, library), eotfs, library));
       answers.back().filter = isBare ? "" : filter;
       describe(options, target, answers.back());
     }

@@ -40,11 +40,7 @@ std::optional<std::array<stage::PanelEotf, 3>> fitRamps(const stage::StageDescri
     const std::string file = ramp.series ? stage.where + ": ramps." + kChannels[k] : spectral::utf8(ramp.file);
     const stage::DriveSeries series =
         ramp.series ? *ramp.series : stage::parseDriveSeries(spectral::readTextFile(ramp.file), file);
-    try {
-      eotf[k] = stage::fitEotf(series);
-    } catch (const spectral::InputError& error) {
-      throw spectral::InputError(file, "", "", error.what());
-    }
+    eotf[k] = stage::fitEotf(series, file);
   }
   return eotf;
 }

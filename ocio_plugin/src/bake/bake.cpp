@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "bake/bake_operators.h"
+#include "bake/certified_file.h"
 #include "bake/judged_recipe.h"
 #include "bake/ladder.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
-#include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 
 namespace metamer::ocio {
@@ -138,12 +138,7 @@ BakedText bakeText(const sip::Recipe& recipe, const spectral::DataLibrary& libra
 Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& library, const std::filesystem::path& file,
                      const std::string& formatName, const BakeOptions& options) {
   const LutFormat& format = lutFormat(file, formatName);
-  // The places first: what cannot be written is not worth the work.
-  spectral::PendingFile lut(file);
-  std::optional<spectral::PendingFile> json;
-  if (!lut.isStream()) {
-    json.emplace(spectral::pathOf(spectral::utf8(file) + ".json"));
-  }
+  CertifiedFile lut(file);
 
   Baking baking(recipe, library, format, options);
   Certificate& certificate = baking.certificate();
@@ -151,19 +146,14 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   // Twice: what the file says of itself is known before it is written, what the certificate says after.
   baking.certify();
   const std::string text = textOf(baking, format, options);
-  lut.write(text);
+  lut.file().write(text);
   certificate.sha256 = sha256(text);
-  baking.certify(PixelProcessor::fromFile(lut.path()));
+  baking.certify(PixelProcessor::fromFile(lut.file().path()));
   if (options.tolerance && certificate.error.p99 > 1.01 * *options.tolerance) {
     throw InputError(spectral::utf8(file), "tolerance", std::to_string(*options.tolerance),
                      "is lost in the digits of " + format.name + "; name a format that keeps more");
   }
-  if (json) {
-    json->write(certificate.json());
-    spectral::commitAll({&lut, &*json});
-  } else {
-    lut.commit();
-  }
+  lut.commit(certificate);
   return std::move(certificate);
 }
 

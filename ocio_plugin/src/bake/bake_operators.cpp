@@ -70,16 +70,7 @@ bool holdsChain(const LutFormat& format) {
   return format.content == LutFormat::Content::Operators && format.extension != ".clf";
 }
 
-sip::ErrorProtocol::Options probesOf(const LutFormat& format, const WorkingSpace& space, const BakeOptions& options) {
-  const bool isTable = options.representation.value_or(Representation::Identity) == Representation::LogCube;
-  sip::ErrorProtocol::Options probes;
-  if (isTable || !holdsChain(format)) {
-    if (!space.isLog && !space.isLinear) {
-      throw InputError("", "space", space.name,
-                       "is neither linear nor log, which a table needs; name a log space, or write .ctf");
-    }
-    probes = signalProbes(cubeShaper(space, options));
-  }
+sip::ErrorProtocol::Options probesWanted(sip::ErrorProtocol::Options probes, const BakeOptions& options) {
   if (options.fullCertificate) {
     probes.chromaticityCount *= 4;
     probes.ringCount *= 4;
@@ -92,6 +83,19 @@ sip::ErrorProtocol::Options probesOf(const LutFormat& format, const WorkingSpace
                      "must rise, from -24 to 24");
   }
   return probes;
+}
+
+sip::ErrorProtocol::Options probesOf(const LutFormat& format, const WorkingSpace& space, const BakeOptions& options) {
+  const bool isTable = options.representation.value_or(Representation::Identity) == Representation::LogCube;
+  sip::ErrorProtocol::Options probes;
+  if (isTable || !holdsChain(format)) {
+    if (!space.isLog && !space.isLinear) {
+      throw InputError("", "space", space.name,
+                       "is neither linear nor log, which a table needs; name a log space, or write .ctf");
+    }
+    probes = signalProbes(cubeShaper(space, options));
+  }
+  return probesWanted(probes, options);
 }
 
 Operators operatorsFor(const Prepared& prepared, const BakeOptions& options, const LutFormat& format,

@@ -26,6 +26,10 @@ int tableSize(const BakeOptions& options, Representation representation, const L
 /// Whether a format has operators for the exposure-invariant chain.
 bool holdsChain(const LutFormat& format);
 
+/// Usual probes as the options want them: more for a full certificate, between other stops.
+/// @throws spectral::InputError: stops that do not rise, or are too far away
+sip::ErrorProtocol::Options probesWanted(sip::ErrorProtocol::Options probes, const BakeOptions& options);
+
 /// The gamut and exposures that a format is judged over.
 /// @throws spectral::InputError: stops that do not rise, a space that a table cannot be made for
 sip::ErrorProtocol::Options probesOf(const LutFormat& format, const WorkingSpace& space, const BakeOptions& options);

@@ -2,8 +2,8 @@
 #include "metamer/ocio/shader_bake.h"
 
 #include <algorithm>
-#include <optional>
 
+#include "bake/certified_file.h"
 #include "bake/judged_recipe.h"
 #include "files/shader_text.h"
 #include "metamer/spectral/input_error.h"
@@ -46,18 +46,7 @@ sip::ErrorProtocol::Options probesOf(const WorkingSpace& space, const BakeOption
                      "is not a linear space of metamer's own, which a shader's pixels are; name one (lutgen list "
                      "spaces), and convert before and after");
   }
-  sip::ErrorProtocol::Options probes;
-  if (options.fullCertificate) {
-    probes.chromaticityCount *= 4;
-    probes.ringCount *= 4;
-  }
-  probes.lowestStop = options.lowestStop.value_or(probes.lowestStop);
-  probes.highestStop = options.highestStop.value_or(probes.highestStop);
-  if (probes.lowestStop > probes.highestStop) {
-    throw InputError("", "stops", std::to_string(probes.lowestStop) + ":" + std::to_string(probes.highestStop),
-                     "must rise, from -24 to 24");
-  }
-  return probes;
+  return probesWanted({}, options);
 }
 
 }  // namespace
@@ -103,23 +92,18 @@ BakedText bakeShaderText(const sip::Recipe& recipe, const spectral::DataLibrary&
   certificate.representation = map.identity ? Representation::Identity : Representation::HomogeneousMap;
   certificate.format = format.name;
   judged.tell(kBuiltShare);
-  // Twice: what the file says of itself is known before it is written, what the certificate says after.
-  sip::ChromaticityGrid grid;
-  if (format.dialect) {
-    judged.certify([&](std::span<float> rgba) { map.apply(rgba); });
-  } else {
-    grid = sip::chromaticityGrid(map);
-    certificate.size = map.identity ? 0 : sip::ChromaticityGrid::kSide;
-    judged.certify([&](std::span<float> rgba) { sip::applyChromaticityGrid(grid, rgba); });
-  }
   std::string text;
   if (format.dialect) {
+    // Twice: what the file says of itself is known before it is written, what the certificate says after.
+    judged.certify([&](std::span<float> rgba) { map.apply(rgba); });
     text = shaderText(*format.dialect, sip::deviceTables(map), descriptionOf(certificate));
     const sip::DeviceTables tables = shaderTables(text);
     judged.certify([&](std::span<float> rgba) { sip::applyDeviceKernel(sip::DeviceKernel::Map, tables, rgba); });
   } else {
-    text = shaderText(grid, descriptionOf(certificate));
+    const sip::ChromaticityGrid grid = sip::chromaticityGrid(map);
+    certificate.size = map.identity ? 0 : sip::ChromaticityGrid::kSide;
     judged.certify([&](std::span<float> rgba) { sip::applyChromaticityGrid(grid, rgba); });
+    text = shaderText(grid, descriptionOf(certificate));
   }
   if (options.tolerance && certificate.error.p99 > *options.tolerance) {
     throw InputError("", "tolerance", spectral::threeDigits(*options.tolerance),
@@ -133,20 +117,10 @@ BakedText bakeShaderText(const sip::Recipe& recipe, const spectral::DataLibrary&
 
 Certificate bakeShaderFile(const sip::Recipe& recipe, const spectral::DataLibrary& library,
                            const std::filesystem::path& file, const ShaderFormat& format, const BakeOptions& options) {
-  // The places first: what cannot be written is not worth the work.
-  spectral::PendingFile shader(file);
-  std::optional<spectral::PendingFile> json;
-  if (!shader.isStream()) {
-    json.emplace(spectral::pathOf(spectral::utf8(file) + ".json"));
-  }
+  CertifiedFile shader(file);
   BakedText baked = bakeShaderText(recipe, library, format, options);
-  shader.write(baked.text);
-  if (json) {
-    json->write(baked.certificate.json());
-    spectral::commitAll({&shader, &*json});
-  } else {
-    shader.commit();
-  }
+  shader.file().write(baked.text);
+  shader.commit(baked.certificate);
   return std::move(baked.certificate);
 }
 

@@ -13,7 +13,6 @@
 namespace metamer::spectral {
 namespace {
 
-constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
 constexpr std::string_view kEnd = "IEND";
 
 /// CRC-32 of ISO 3309, a byte at a time.
@@ -37,6 +36,8 @@ std::uint32_t crcOf(std::uint32_t crc, const char* bytes, std::size_t count) {
   return crc;
 }
 
+}  // namespace
+
 std::uint32_t bigEndian(const char* bytes) {
   std::uint32_t value = 0;
   for (int k = 0; k < 4; ++k) {
@@ -45,12 +46,10 @@ std::uint32_t bigEndian(const char* bytes) {
   return value;
 }
 
-}  // namespace
-
 void refuseBrokenPng(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::array<char, 8> head{};
-  if (!stream.read(head.data(), head.size()) || std::string_view(head.data(), head.size()) != kSignature) {
+  if (!stream.read(head.data(), head.size()) || std::string_view(head.data(), head.size()) != kPngSignature) {
     return;
   }
   std::vector<char> block(std::size_t{1} << 16U);

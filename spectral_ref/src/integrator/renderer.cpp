@@ -46,7 +46,7 @@ std::unique_ptr<TileTracer> tracerFor(const TracerContext& context) {
 }
 
 Replicates replicatesFor(const RenderOptions& options) {
-  return {options.restir == Restir::Off ? 1 : TileTracer::kEpoch};
+  return {options.restir == Restir::Off ? 1 : kSamplesTogether};
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ struct Renderer::State {
   }
 
   /// First sample that the film's first one depends on.
-  std::uint64_t epochStart() const { return tracer->resamples() ? first - first % TileTracer::kEpoch : first; }
+  std::uint64_t epochStart() const { return tracer->resamples() ? first - first % kSamplesTogether : first; }
   std::uint64_t next() const { return std::max(cursor, first); }
 
   template <typename Work>

@@ -35,9 +35,6 @@ struct TracerContext {
 /// time.
 class TileTracer {
  public:
-  /// Samples after which resampling starts anew, so that a sample depends on few before it.
-  static constexpr std::uint64_t kEpoch = 16;
-
   virtual ~TileTracer() = default;
   /// Teaches the guide what the pixels of a tile see; before anything is traced.
   virtual void learn(const Tile& tile) = 0;

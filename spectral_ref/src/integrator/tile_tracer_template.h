@@ -248,7 +248,7 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
     Reservoir<C>& own = m_reservoirs[at.sample % 2][pixel];
     own = m_sampler.fresh(domainOf(at, hit, reflected, wavelengths, seen),
                           random.candidates(ReservoirSampler<C>::kLog2Candidates), random.candidate());
-    if (at.sample % TileTracer::kEpoch == 0) {
+    if (at.sample % kSamplesTogether == 0) {
       return own;
     }
     const std::vector<Reservoir<C>>& before = m_reservoirs[(at.sample + 1) % 2];

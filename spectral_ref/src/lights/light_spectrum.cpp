@@ -30,16 +30,6 @@ std::set<SpectrumId> emittedSpectra(const Scene& scene) {
   return spectra;
 }
 
-/// A light from 300 nm on.
-spectral::ExcitationSamples whole(const Scene& scene, SpectrumId id) {
-  spectral::ExcitationSamples light = spectral::ExcitationSamples::Zero();
-  if (id < scene.ultraviolet.size()) {
-    light.head<spectral::kDomainInExcitation>() = scene.ultraviolet[id];
-  }
-  light.tail<spectral::kDomainSize>() = scene.spectra[id];
-  return light;
-}
-
 }  // namespace
 
 spectral::DomainSamples worthOfLights(const Scene& scene) {
@@ -50,7 +40,7 @@ spectral::DomainSamples worthOfLights(const Scene& scene) {
   for (const SpectrumId id : emittedSpectra(scene)) {
     spectral::DomainSamples light = scene.spectra[id];
     for (const spectral::FluorescentSamples& surface : scene.fluorescences) {
-      light += (surface.perNm * whole(scene, id)).tail<spectral::kDomainSize>();
+      light += (surface.perNm * scene.whole(id)).tail<spectral::kDomainSize>();
     }
     const spectral::DomainSamples seen = light.cwiseProduct(worth);
     const double total = seen.sum();
@@ -65,7 +55,7 @@ spectral::ExcitationSamples excitingLight(const Scene& scene) {
   spectral::ExcitationSamples mean = spectral::ExcitationSamples::Zero();
   const std::set<SpectrumId> lights = emittedSpectra(scene);
   for (const SpectrumId id : lights) {
-    const spectral::ExcitationSamples light = whole(scene, id);
+    const spectral::ExcitationSamples light = scene.whole(id);
     if (const double total = light.sum(); total > 0) {
       mean += light / (total * static_cast<double>(lights.size()));
     }

@@ -13,11 +13,12 @@ namespace {
 
 /// What a spectrum is worth when lights are chosen: mostly its luminance, a little its whole power, so that light of
 /// any wavelength has its chance. Where surfaces fluoresce, what cannot be seen counts as much as what can.
-double worth(const Scene& scene, std::size_t id, const spectral::DomainSamples& luminance) {
+double worth(const Scene& scene, SpectrumId id, const spectral::DomainSamples& luminance) {
   const spectral::DomainSamples& spectrum = scene.spectra[id];
   const bool isExciting = !scene.fluorescences.empty();
   const double invisibleShare = isExciting ? 0.5 : 0.1;
-  const double ultraviolet = isExciting && id < scene.ultraviolet.size() ? scene.ultraviolet[id].sum() : 0.0;
+  const double ultraviolet =
+      isExciting ? UltravioletSamples(scene.whole(id).head<spectral::kDomainInExcitation>()).sum() : 0.0;
   return (1.0 - invisibleShare) * spectrum.dot(luminance) +
          invisibleShare * (spectrum.mean() + ultraviolet / spectral::kDomainSize);
 }
@@ -59,7 +60,7 @@ std::vector<double> LightTable::worths(const Scene& scene) const {
   luminance = (curves * scene.film.luminanceOfResponse).cwiseAbs();
   luminance /= std::max(luminance.sum(), std::numeric_limits<double>::min());
   std::vector<double> ofSpectrum;
-  for (std::size_t id = 0; id < scene.spectra.size(); ++id) {
+  for (SpectrumId id = 0; id < scene.spectra.size(); ++id) {
     ofSpectrum.push_back(worth(scene, id, luminance));
   }
   std::vector<double> result(m_emitterOfEntry.size());

@@ -28,103 +28,114 @@ Cone united(const Cone& a, const Cone& b) {
   return {axis, std::min(kPi, std::max(angleBetween(axis, a.axis) + a.spread, angleBetween(axis, b.axis) + b.spread))};
 }
 
-}  // namespace
-
-struct LightTree::Built {
-  Vec3 least;
-  Vec3 most;
-  Cone cone;
-};
-
 /// What the order is made by, packed: a build reads it over and over.
-struct LightTree::Place {
+struct Place {
   Vec3 twiceCenter;
   std::uint32_t light;
 };
 
-LightTree::LightTree(const std::vector<LightBounds>& lights) : m_order(lights.size()), m_position(lights.size()) {
-  const auto count = static_cast<std::uint32_t>(lights.size());
-  if (count == 0) {
-    return;
+/// Makes the nodes, and the order of the lights with them.
+class TreeBuilder {
+ public:
+  TreeBuilder(const std::vector<LightBounds>& lights, std::vector<LightTree::Node>& nodes)
+      : m_lights(lights), m_nodes(nodes) {
+    const auto count = static_cast<std::uint32_t>(lights.size());
+    m_places.reserve(lights.size());
+    for (std::uint32_t light = 0; light < count; ++light) {
+      m_places.push_back({lights[light].least + lights[light].most, light});
+    }
+    const auto far = std::partition(m_places.begin(), m_places.end(),
+                                    [&](const Place& place) { return !lights[place.light].isInfinite; });
+    m_firstFar = static_cast<std::uint32_t>(far - m_places.begin());
+    m_nodes.reserve(2 * lights.size());
+    build(0, count);
   }
-  std::vector<Place> places;
-  places.reserve(lights.size());
-  for (std::uint32_t light = 0; light < count; ++light) {
-    places.push_back({lights[light].least + lights[light].most, light});
-  }
-  const auto far =
-      std::partition(places.begin(), places.end(), [&](const Place& place) { return !lights[place.light].isInfinite; });
-  m_nodes.reserve(2 * lights.size());
-  build(lights, places, static_cast<std::uint32_t>(far - places.begin()), 0, count);
-  m_below.reserve(lights.size() + 1);
-  m_below.push_back(0.0);
-  const bool isBlack = !(m_nodes[0].intensity > 0.0F);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    m_order[i] = places[i].light;
-    m_position[m_order[i]] = i;
-    m_below.push_back(m_below.back() + (isBlack ? 1.0 : static_cast<double>(lights[m_order[i]].intensity)));
-  }
-}
 
-namespace {
+  const std::vector<Place>& places() const { return m_places; }
 
-/// Puts the lesser half along the longest axis first, and says where the other begins.
-template <typename Place>
-std::uint32_t halved(std::vector<Place>& places, std::uint32_t begin, std::uint32_t end) {
-  Vec3 least = Vec3::Constant(std::numeric_limits<float>::infinity());
-  Vec3 most = -least;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    least = least.cwiseMin(places[i].twiceCenter);
-    most = most.cwiseMax(places[i].twiceCenter);
+ private:
+  struct Built {
+    Vec3 least;
+    Vec3 most;
+    Cone cone;
+  };
+
+  /// Puts the lesser half along the longest axis first, and says where the other begins.
+  std::uint32_t halved(std::uint32_t begin, std::uint32_t end) {
+    Vec3 least = Vec3::Constant(std::numeric_limits<float>::infinity());
+    Vec3 most = -least;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      least = least.cwiseMin(m_places[i].twiceCenter);
+      most = most.cwiseMax(m_places[i].twiceCenter);
+    }
+    Eigen::Index axis = 0;
+    (most - least).maxCoeff(&axis);
+    const std::uint32_t middle = begin + (end - begin) / 2;
+    // By number where places are equal: the same tree whatever the library.
+    std::nth_element(m_places.begin() + begin, m_places.begin() + middle, m_places.begin() + end,
+                     [axis](const Place& a, const Place& b) {
+                       const float placeA = a.twiceCenter[axis];
+                       const float placeB = b.twiceCenter[axis];
+                       return placeA != placeB ? placeA < placeB : a.light < b.light;
+                     });
+    return middle;
   }
-  Eigen::Index axis = 0;
-  (most - least).maxCoeff(&axis);
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  // By number where places are equal: the same tree whatever the library.
-  std::nth_element(places.begin() + begin, places.begin() + middle, places.begin() + end,
-                   [axis](const Place& a, const Place& b) {
-                     const float placeA = a.twiceCenter[axis];
-                     const float placeB = b.twiceCenter[axis];
-                     return placeA != placeB ? placeA < placeB : a.light < b.light;
-                   });
-  return middle;
-}
+
+  Built build(std::uint32_t begin, std::uint32_t end) {
+    const std::size_t index = m_nodes.size();
+    m_nodes.emplace_back();
+    LightTree::Node node{};
+    node.begin = begin;
+    node.end = end;
+    Built built{};
+    if (end - begin == 1) {
+      const LightBounds& light = m_lights[m_places[begin].light];
+      built = {light.least, light.most, {light.axis, light.spread}};
+      node.intensity = light.intensity;
+      node.isInfinite = light.isInfinite;
+    } else {
+      // Those far away come last in the whole order, in a half of their own.
+      const bool isMixed = begin < m_firstFar && m_firstFar < end;
+      const std::uint32_t middle = isMixed ? m_firstFar : halved(begin, end);
+      const Built left = build(begin, middle);
+      node.right = static_cast<std::uint32_t>(m_nodes.size());
+      const Built right = build(middle, end);
+      const LightTree::Node& first = m_nodes[index + 1];
+      const LightTree::Node& second = m_nodes[node.right];
+      built = {left.least.cwiseMin(right.least), left.most.cwiseMax(right.most), united(left.cone, right.cone)};
+      node.intensity = first.intensity + second.intensity;
+      node.isInfinite = first.isInfinite && second.isInfinite;
+    }
+    node.center = 0.5F * (built.least + built.most);
+    node.radius = 0.5F * (built.most - built.least).norm();
+    node.axis = built.cone.axis;
+    node.cosSpread = std::cos(built.cone.spread);
+    node.sinSpread = std::sin(built.cone.spread);
+    m_nodes[index] = node;
+    return built;
+  }
+
+  const std::vector<LightBounds>& m_lights;
+  std::vector<LightTree::Node>& m_nodes;
+  std::vector<Place> m_places;
+  std::uint32_t m_firstFar = 0;
+};
 
 }  // namespace
 
-LightTree::Built LightTree::build(const std::vector<LightBounds>& lights, std::vector<Place>& places,
-                                  std::uint32_t firstFar, std::uint32_t begin, std::uint32_t end) {
-  const std::size_t index = m_nodes.size();
-  m_nodes.emplace_back();
-  Node node{};
-  node.begin = begin;
-  node.end = end;
-  Built built{};
-  if (end - begin == 1) {
-    const LightBounds& light = lights[places[begin].light];
-    built = {light.least, light.most, {light.axis, light.spread}};
-    node.intensity = light.intensity;
-    node.isInfinite = light.isInfinite;
-  } else {
-    // Those far away come last in the whole order, in a half of their own.
-    const bool isMixed = begin < firstFar && firstFar < end;
-    const std::uint32_t middle = isMixed ? firstFar : halved(places, begin, end);
-    const Built left = build(lights, places, firstFar, begin, middle);
-    node.right = static_cast<std::uint32_t>(m_nodes.size());
-    const Built right = build(lights, places, firstFar, middle, end);
-    const Node& first = m_nodes[index + 1];
-    const Node& second = m_nodes[node.right];
-    built = {left.least.cwiseMin(right.least), left.most.cwiseMax(right.most), united(left.cone, right.cone)};
-    node.intensity = first.intensity + second.intensity;
-    node.isInfinite = first.isInfinite && second.isInfinite;
+LightTree::LightTree(const std::vector<LightBounds>& lights) : m_order(lights.size()), m_position(lights.size()) {
+  if (lights.empty()) {
+    return;
   }
-  node.center = 0.5F * (built.least + built.most);
-  node.radius = 0.5F * (built.most - built.least).norm();
-  node.axis = built.cone.axis;
-  node.cosSpread = std::cos(built.cone.spread);
-  node.sinSpread = std::sin(built.cone.spread);
-  m_nodes[index] = node;
-  return built;
+  const TreeBuilder builder(lights, m_nodes);
+  m_below.reserve(lights.size() + 1);
+  m_below.push_back(0.0);
+  const bool isBlack = !(m_nodes[0].intensity > 0.0F);
+  for (std::uint32_t i = 0; i < m_order.size(); ++i) {
+    m_order[i] = builder.places()[i].light;
+    m_position[m_order[i]] = i;
+    m_below.push_back(m_below.back() + (isBlack ? 1.0 : static_cast<double>(lights[m_order[i]].intensity)));
+  }
 }
 
 namespace {

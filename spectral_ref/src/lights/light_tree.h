@@ -57,11 +57,6 @@ class LightTree {
   }
 
  private:
-  struct Built;
-  struct Place;
-  Built build(const std::vector<LightBounds>& lights, std::vector<Place>& places, std::uint32_t firstFar,
-              std::uint32_t begin, std::uint32_t end);
-
   std::vector<Node> m_nodes;
   std::vector<std::uint32_t> m_order;     ///< light at each position
   std::vector<std::uint32_t> m_position;  ///< of each light

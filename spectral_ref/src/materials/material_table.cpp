@@ -33,8 +33,9 @@ std::vector<float> meanFresnel(const Scene& scene, const Material& material) {
 
 MaterialTable::MaterialTable(const Scene& scene) {
   std::vector<std::shared_ptr<const FluorescenceTable>> fluorescences;
+  const spectral::ExcitationSamples light = excitingLight(scene);
   for (const spectral::FluorescentSamples& surface : scene.fluorescences) {
-    fluorescences.push_back(std::make_shared<FluorescenceTable>(surface, excitingLight(scene)));
+    fluorescences.push_back(std::make_shared<FluorescenceTable>(surface, light));
   }
   for (const Material& material : scene.materials) {
     PreparedMaterial prepared;

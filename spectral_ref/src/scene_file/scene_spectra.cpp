@@ -101,12 +101,6 @@ SpectrumId SceneSpectra::add(const spectral::DomainSamples& samples) {
   return add(all);
 }
 
-ExcitationSamples SceneSpectra::at(SpectrumId id) const {
-  ExcitationSamples samples;
-  samples << m_scene.ultraviolet[id], m_scene.spectra[id];
-  return samples;
-}
-
 SpectrumId SceneSpectra::find(const SceneValue& value, Use use) {
   const std::string name = value.text();
   const auto known = m_resolved.find({name, use});

@@ -32,7 +32,7 @@ class SceneSpectra {
   /// The same of one that is nothing below 380 nm.
   SpectrumId add(const spectral::DomainSamples& samples);
   /// A spectrum that has been added, from 300 nm on.
-  spectral::ExcitationSamples at(SpectrumId id) const;
+  spectral::ExcitationSamples at(SpectrumId id) const { return m_scene.whole(id); }
   /// All samples of a reflectance set.
   std::vector<SpectrumId> set(const SceneValue& value);
 

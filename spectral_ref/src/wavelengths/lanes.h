@@ -35,12 +35,9 @@ class SpectrumTables {
  public:
   explicit SpectrumTables(const Scene& scene) {
     m_values.reserve(scene.spectra.size() * kStride);
-    for (std::size_t id = 0; id < scene.spectra.size(); ++id) {
-      for (int i = 0; i < kUltravioletCells; ++i) {
-        m_values.push_back(id < scene.ultraviolet.size() ? static_cast<float>(scene.ultraviolet[id][i]) : 0.0F);
-      }
-      for (int i = 0; i < kCells; ++i) {
-        m_values.push_back(static_cast<float>(scene.spectra[id][i]));
+    for (SpectrumId id = 0; id < scene.spectra.size(); ++id) {
+      for (const double value : scene.whole(id)) {
+        m_values.push_back(static_cast<float>(value));
       }
     }
   }

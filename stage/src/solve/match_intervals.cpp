@@ -1,35 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/Dense>
-#include <limits>
 
-#include "metamer/spectral/argument_checks.h"
 #include "metamer/stage/chart_difference.h"
 #include "metamer/stage/match_limits.h"
+#include "solve/draws.h"
 
 namespace metamer::stage {
-namespace {
-
-constexpr int kFewestSamples = 20;
-constexpr int kMostSamples = 100'000;
-
-}  // namespace
-
 MatchIntervals matchIntervals(const std::vector<ChartTable>& emitterCharts, const ChartTable& target,
                               const MatchOfCharts& match, const IntervalOptions& options) {
-  spectral::requireWithin("noise", options.noise.relative, 0, 1);
-  spectral::requireWithin("noise floor", options.noise.floor, 0, std::numeric_limits<double>::max());
-  spectral::requireWithin("samples", options.samples, kFewestSamples, kMostSamples);
+  requireDraws(options);
   const MatchOutcome centre = match(emitterCharts, target);
   std::vector<Eigen::VectorXd> drives(static_cast<std::size_t>(options.samples));
   std::vector<double> means(drives.size());
-  const auto body = [&](int i) {
-    const auto sample = static_cast<std::uint64_t>(i);
-    std::uint64_t place = 0;
+  runDraws(options, [&](int i) {
+    Noise noise(options, static_cast<std::uint64_t>(i));
     const auto noisy = [&](ChartTable table) {
-      for (double& value : table.rgb.reshaped()) {
-        value += std::hypot(options.noise.relative * value, options.noise.floor) *
-                 normalNumber(options.seed, sample, place++);
-      }
+      noise.add(table.rgb);
       return table;
     };
     std::vector<ChartTable> charts;
@@ -39,14 +25,7 @@ MatchIntervals matchIntervals(const std::vector<ChartTable>& emitterCharts, cons
     const MatchOutcome drawn = match(std::move(charts), noisy(target));
     means[static_cast<std::size_t>(i)] = summaryOf(differencesOf(drawn)).mean;
     drives[static_cast<std::size_t>(i)] = drawn.match.drives;
-  };
-  if (options.runAll) {
-    options.runAll(options.samples, body);
-  } else {
-    for (int i = 0; i < options.samples; ++i) {
-      body(i);
-    }
-  }
+  });
   MatchIntervals result;
   result.samples = options.samples;
   result.noise = options.noise;

@@ -4,12 +4,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/stage/chart_difference.h"
 #include "solve/attenuation.h"
+#include "solve/draws.h"
 
 namespace metamer::stage {
 namespace {
@@ -18,8 +18,6 @@ using Eigen::Matrix3d;
 using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
-constexpr int kFewestSamples = 20;
-constexpr int kMostSamples = 100'000;
 constexpr double kTail = 0.025;
 /// A smaller bound of N is taken where it costs no more than this.
 constexpr double kAsGood = 1.05;
@@ -32,25 +30,6 @@ std::uint64_t mixed(std::uint64_t value) {
   value = (value ^ (value >> 27u)) * 0x94D049BB133111EBu;
   return value ^ (value >> 31u);
 }
-
-/// Adds noise to values one after another.
-class Noise {
- public:
-  Noise(const IntervalOptions& options, std::uint64_t sample) : m_options(options), m_sample(sample) {}
-
-  template <typename Values>
-  void add(Values& values) {
-    for (double& value : values.reshaped()) {
-      const double sigma = std::hypot(m_options.noise.relative * value, m_options.noise.floor);
-      value += sigma * normalNumber(m_options.seed, m_sample, m_place++);
-    }
-  }
-
- private:
-  const IntervalOptions& m_options;
-  std::uint64_t m_sample;
-  std::uint64_t m_place = 0;
-};
 
 /// One draw's solution.
 struct Sample {
@@ -115,9 +94,7 @@ Interval<double> turnedEnds(const std::vector<Sample>& samples, const Sample& ce
 }
 
 void check(const IntervalOptions& options, Eigen::Index patches) {
-  spectral::requireWithin("noise", options.noise.relative, 0, 1);
-  spectral::requireWithin("noise floor", options.noise.floor, 0, std::numeric_limits<double>::max());
-  spectral::requireWithin("samples", options.samples, kFewestSamples, kMostSamples);
+  requireDraws(options);
   spectral::requireWithin("white patch", options.whitePatch, -1, static_cast<double>(patches) - 1);
   spectral::requireWithin("exposure patch", options.exposurePatch, -1, static_cast<double>(patches) - 1);
   spectral::requireAbove("white reflectance", options.whiteReflectance, 0);
@@ -176,17 +153,10 @@ WallIntervals wallIntervals(const WallCapture& capture, const WallOptions& walls
   const WallSolution nominal = solveWall(capture, walls);
   const Sample centre = solved(capture, walls, options, 1);
   std::vector<Sample> samples(static_cast<std::size_t>(options.samples));
-  const auto body = [&](int i) {
+  runDraws(options, [&](int i) {
     const auto sample = static_cast<std::uint64_t>(i);
     samples[static_cast<std::size_t>(i)] = solved(noisyCapture(capture, options, sample), walls, options, 2);
-  };
-  if (options.runAll) {
-    options.runAll(options.samples, body);
-  } else {
-    for (int i = 0; i < options.samples; ++i) {
-      body(i);
-    }
-  }
+  });
 
   WallIntervals result;
   result.samples = options.samples;

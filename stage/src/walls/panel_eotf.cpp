@@ -198,6 +198,14 @@ PanelEotf fitEotf(const DriveSeries& series) {
   return eotf;
 }
 
+PanelEotf fitEotf(const DriveSeries& series, const std::string& where) {
+  try {
+    return fitEotf(series);
+  } catch (const spectral::InputError& error) {
+    throw spectral::InputError(where, "", "", error.what());
+  }
+}
+
 DriveSeries parseDriveSeries(const std::string& text, const std::string& where) {
   // A ramp has a chart's form: the drive stands where a patch's name does.
   const ChartTable table = parseChart(text, where);

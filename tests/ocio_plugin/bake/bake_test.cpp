@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "metamer/ocio/pixel_processor.h"
-#include "metamer/sip/recipe.h"
+#include "ocio_plugin/bake/look_recipe.h"
 #include "sip/sip_fixture.h"
 #include "spectral/temporary_folder.h"
 
@@ -16,17 +16,6 @@ namespace {
 
 using spectral::errorOf;
 using spectral::testLibrary;
-
-sip::Recipe recipeOf(const std::string& from, const std::string& to, const std::string& space = "ACEScg") {
-  sip::Recipe recipe;
-  recipe.name = "look";
-  recipe.space = space;
-  recipe.input.illuminant = from;
-  recipe.output.illuminant = to;
-  // What is tested here does not depend on the scene; this one takes half the time.
-  recipe.scene.kind = sip::ReferenceScene::Kind::Smooth;
-  return recipe;
-}
 
 TEST(BakeTest, AnIdentityIsANoOp) {
   const Baked baked = bake(recipeOf("D65", "D65"), testLibrary());

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "files/shader_text.h"
-#include "metamer/sip/recipe.h"
+#include "ocio_plugin/bake/look_recipe.h"
 #include "sip/device/device_fixture.h"
 #include "sip/device/opencl_device.h"
 #include "spectral/fixture.h"
@@ -19,17 +19,6 @@ namespace {
 
 using spectral::errorOf;
 using spectral::testLibrary;
-
-sip::Recipe recipeOf(const std::string& from, const std::string& to, const std::string& space = "ACEScg") {
-  sip::Recipe recipe;
-  recipe.name = "look";
-  recipe.space = space;
-  recipe.input.illuminant = from;
-  recipe.output.illuminant = to;
-  // What is tested here does not depend on the scene; this one takes half the time.
-  recipe.scene.kind = sip::ReferenceScene::Kind::Smooth;
-  return recipe;
-}
 
 const ShaderFormat& formatNamed(const std::string& name) {
   return *findShaderFormat({}, name);

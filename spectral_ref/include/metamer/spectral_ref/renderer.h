@@ -13,6 +13,10 @@
 
 namespace metamer::spectral_ref {
 
+/// Samples after which resampling starts anew, so that a sample depends on few before it: ranges that begin at
+/// multiples of it render nothing twice.
+inline constexpr std::uint64_t kSamplesTogether = 16;
+
 /// How direct light at the first surface is sampled.
 enum class Restir {
   Off,    ///< next-event estimation alone

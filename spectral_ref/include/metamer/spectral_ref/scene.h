@@ -161,6 +161,16 @@ struct Scene {
   std::vector<EnvironmentLight> environments;
   std::vector<PointLight> points;
   std::vector<SpotLight> spots;
+  /// A spectrum at 300, 301, ... 780 nm.
+  spectral::ExcitationSamples whole(SpectrumId id) const {
+    spectral::ExcitationSamples samples = spectral::ExcitationSamples::Zero();
+    if (id < ultraviolet.size()) {
+      samples.head<spectral::kDomainInExcitation>() = ultraviolet[id];
+    }
+    samples.tail<spectral::kDomainSize>() = spectra[id];
+    return samples;
+  }
+
   /// Of all bytes the scene was read from: a checkpoint goes on with the same scene only.
   std::uint64_t fingerprint = 0;
   /// Findings that do not stop a render, one line each.

@@ -31,6 +31,8 @@ inline constexpr double kPowerHolds = 0.025;
 /// Fits a channel's ramp; the largest drive counts as full. Noise is taken as a share of the signal.
 /// @throws spectral::InputError: as judgeLinearity, fewer than five drives, none of them 0
 PanelEotf fitEotf(const DriveSeries& series);
+/// The same; what it refuses is refused of a file. @param where  what messages call it
+PanelEotf fitEotf(const DriveSeries& series, const std::string& where);
 
 /// Reads a ramp of CSV text with the header "patch,R,G,B", the drive in place of the patch's name.
 /// @throws spectral::InputError as parseChart; a drive that is none, a missing value
