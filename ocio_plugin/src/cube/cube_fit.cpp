@@ -160,7 +160,7 @@ class Fit {
       for (std::size_t k = first; k < last; ++k) {
         const Eigen::Vector3f value = valueAt(m_samples[k]);
         errors.full[k] = errors.quadratic[k] = smallError(m_samples[k].metric, value - m_samples[k].target);
-        if (errors.quadratic[k] > kSmall) {
+        if (errors.quadratic[k] > kSmall && !m_samples[k].isNoise) {
           large.push_back(k);
           judged.push_back(m_samples[k]);
           rgba.insert(rgba.end(), {value[0], value[1], value[2], 1.0F});

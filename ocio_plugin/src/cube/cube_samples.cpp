@@ -22,6 +22,11 @@ constexpr int kExposuresPerStop = 1;
 /// Stops beyond the range that samples reach. Half a stop, so that what is judged at a stop lies in the middle of what
 /// is fitted, and some more: the ends, of which the dark one is the hardest, else lie at the border of what is weighed.
 constexpr double kBeyond = 0.8;
+/// Noise of black: colours, and how far from black they reach, denser toward it.
+constexpr int kNoiseCount = 2000;
+constexpr double kNoiseReach = 0.006;
+/// Luminance of the grey against which they are judged.
+constexpr double kNoiseGrey = 0.005;
 /// Chromaticities a task.
 constexpr int kBlock = 250;
 /// Step of the signal to see its slope by, and of light to see CIEDE2000's.
@@ -35,6 +40,19 @@ Eigen::Vector3d spreadColour(const spectral::RgbSpace& space, const Eigen::Matri
   const double u = std::fmod(0.25 + (k + 1) / sip::kPlasticNumber, 1.0);
   const double v = std::fmod(0.75 + (k + 1) / (sip::kPlasticNumber * sip::kPlasticNumber), 1.0);
   return rgbFromXyz * spectral::xyzFromChromaticity(sip::inTriangle(space.primaries, u, v), kLuminance);
+}
+
+/// The k-th colour of black's noise: an even spread over a cube (Roberts' R3 sequence), drawn in toward black.
+Eigen::Vector3d noiseColour(int k) {
+  constexpr double kRatio = 1.22074408460575947536;
+  Eigen::Vector3d colour;
+  double part = 1.0;
+  for (double& channel : colour) {
+    part /= kRatio;
+    const double even = 2.0 * std::fmod(0.5 + (k + 1) * part, 1.0) - 1.0;
+    channel = kNoiseReach * even * std::abs(even);
+  }
+  return colour;
 }
 
 /// One chromaticity: what goes in, what should come out, and how the eye judges deviations from it.
@@ -61,6 +79,7 @@ class Sampler {
         m_count(std::max(1, static_cast<int>(std::lround((highestStop + kBeyond - m_lowest) * kExposuresPerStop)))),
         m_step((highestStop + kBeyond - m_lowest) / m_count) {}
 
+  /// Samples of chromaticities first ... last - 1, at all exposures.
   void run(int first, int last, std::vector<CubeSample>& samples) const {
     std::vector<Direction> directions;
     std::vector<double> phase;
@@ -91,6 +110,26 @@ class Sampler {
             std::exp2(m_lowest + m_step * (exposure + std::fmod(start + exposure / sip::kPlasticNumber, 1.0))));
       }
       addExposure(directions, gains, samples);
+    }
+  }
+
+  /// Samples of black's noise.
+  void runNoise(std::vector<CubeSample>& samples) const {
+    std::vector<Eigen::Vector3d> colours;
+    colours.reserve(kNoiseCount);
+    for (int k = 0; k < kNoiseCount; ++k) {
+      colours.push_back(noiseColour(k));
+    }
+    std::vector<Eigen::Vector3d> results = colours;
+    m_transform.apply(results);
+    const Eigen::Matrix3d form = perceptual(m_transform.apply(Eigen::Vector3d(kNoiseGrey, kNoiseGrey, kNoiseGrey)));
+    std::vector<Direction> directions;
+    for (std::size_t k = 0; k < colours.size(); ++k) {
+      directions.push_back({colours[k], results[k], form, Eigen::Vector3f::Zero()});
+    }
+    addExposure(directions, std::vector<double>(colours.size(), 1.0), samples);
+    for (CubeSample& sample : samples) {
+      sample.isNoise = true;
     }
   }
 
@@ -187,9 +226,14 @@ std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, con
                                     int size, double lowestStop, double highestStop) {
   const Sampler sampler(transform, axes, signal, size, lowestStop, highestStop);
   constexpr int kBlocks = kChromaticityCount / kBlock;
-  std::vector<std::vector<CubeSample>> blocks(kBlocks);
-  parallelFor(kBlocks, [&](int block) {
-    sampler.run(block * kBlock, (block + 1) * kBlock, blocks[static_cast<std::size_t>(block)]);
+  std::vector<std::vector<CubeSample>> blocks(kBlocks + 1);
+  parallelFor(kBlocks + 1, [&](int block) {
+    auto& samples = blocks[static_cast<std::size_t>(block)];
+    if (block == kBlocks) {
+      sampler.runNoise(samples);
+    } else {
+      sampler.run(block * kBlock, (block + 1) * kBlock, samples);
+    }
   });
   std::size_t count = 0;
   for (const auto& block : blocks) {

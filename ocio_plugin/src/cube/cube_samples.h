@@ -18,11 +18,13 @@ struct CubeSample {
   Symmetric metric;        ///< squared CIEDE2000 of a small deviation of the signal, judged as the error protocol does
   Eigen::Vector3f lab;     ///< of the exact result at the protocol's exposure
   float gain = 1.0F;       ///< from there to the sample's own exposure
+  bool isNoise = false;    ///< of black: judged by the metric alone
 };
 
 /// Colours spread as the error protocol's probes are: chromaticities evenly over the gamut, exposures evenly between
 /// two stops round Y = 0.18 and somewhat beyond. The transform is exact on a chromaticity, and the same at every
-/// exposure of it. Ordered by node.
+/// exposure of it. Beside them what a sensor's noise makes of black, where the signal has codes for it: deviations
+/// there are judged against a dark grey's light. Ordered by node.
 /// @param axes    of the lattice
 /// @param signal  of its values
 std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, const Signal& axes, const Signal& signal,
