@@ -10,6 +10,9 @@ namespace bare_host {
 namespace {
 
 constexpr const char* kColourManagementStyle = "OfxImageEffectPropColourManagementStyle";
+constexpr const char* kOpenClRenderSupported = "OfxImageEffectPropOpenCLRenderSupported";
+constexpr const char* kOpenClEnabled = "OfxImageEffectPropOpenCLEnabled";
+constexpr const char* kOpenClCommandQueue = "OfxImageEffectPropOpenCLCommandQueue";
 
 template <typename Function>
 Function* symbol(const LoadedLibrary& library, const char* name) {
@@ -62,6 +65,9 @@ Host::Host(const std::filesystem::path& library, const Features& features)
   m_state->properties.set("state", static_cast<void*>(m_state.get()));
   if (!features.colourManagement.empty()) {
     m_state->properties.set(kColourManagementStyle, features.colourManagement);
+  }
+  if (features.openCl) {
+    m_state->properties.set(kOpenClRenderSupported, "true");
   }
   m_state->host = {m_state->properties.handle(), fetchSuite};
   setSuiteThreads(features.threads);
@@ -186,6 +192,10 @@ OfxStatus Instance::render(const OfxRectI& window, double time, const std::strin
   in.set(kOfxImageEffectPropRenderScale, 0, scale.x);
   in.set(kOfxImageEffectPropRenderScale, 1, scale.y);
   in.set(kOfxImageEffectPropRenderQualityDraft, isDraft ? 1 : 0);
+  if (m_queue != nullptr) {
+    in.set(kOpenClEnabled, 1);
+    in.set(kOpenClCommandQueue, m_queue);
+  }
   return act(kOfxImageEffectActionRender, &in, nullptr);
 }
 

@@ -43,9 +43,9 @@ auto onInstance(const HostSuites& host, OfxImageEffectHandle handle, Action acti
   }
 }
 
-OfxStatus createInstance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle) {
-  auto instance = std::make_unique<Instance>(host, effect, handle);
-  instanceProperties(host, handle).setPointer(kOfxPropInstanceData, instance.get());
+OfxStatus createInstance(const Plugin& plugin, const Effect& effect, OfxImageEffectHandle handle) {
+  auto instance = std::make_unique<Instance>(plugin.host(), effect, handle, plugin.openCl());
+  instanceProperties(plugin.host(), handle).setPointer(kOfxPropInstanceData, instance.get());
   instance.release();  // until destroyInstance
   return kOfxStatOK;
 }
@@ -69,17 +69,19 @@ OfxStatus isIdentity(const HostSuites& host, OfxImageEffectHandle handle, const 
 
 }  // namespace
 
-OfxStatus perform(const HostSuites& host, const Effect& effect, const char* action, OfxImageEffectHandle handle,
+OfxStatus perform(const Plugin& plugin, std::size_t index, const char* action, OfxImageEffectHandle handle,
                   OfxPropertySetHandle inArguments, OfxPropertySetHandle outArguments) {
+  const HostSuites& host = plugin.host();
+  const Effect& effect = plugin.effect(index);
   const std::string_view name(action);
   const PropertySet in(host, inArguments);
   const PropertySet out(host, outArguments);
   if (name == kOfxActionDescribe) {
-    describe(host, effect, handle);
+    describe(host, effect, handle, plugin.openCl() != nullptr);
   } else if (name == kOfxImageEffectActionDescribeInContext) {
     describeInContext(host, effect, handle);
   } else if (name == kOfxActionCreateInstance) {
-    return createInstance(host, effect, handle);
+    return createInstance(plugin, effect, handle);
   } else if (name == kOfxActionDestroyInstance) {
     return destroyInstance(host, handle);
   } else if (name == kOfxActionInstanceChanged) {

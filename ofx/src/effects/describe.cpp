@@ -3,6 +3,7 @@
 
 #include "effects/instance.h"
 #include "host/colour_management.h"
+#include "host/device_properties.h"
 #include "host/property_set.h"
 
 namespace metamer::ofx {
@@ -29,7 +30,7 @@ PropertySet defineClip(const HostSuites& host, OfxImageEffectHandle descriptor, 
 
 }  // namespace
 
-void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor) {
+void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor, bool hasOpenCl) {
   const PropertySet properties = propertiesOf(host, descriptor);
   const Effect::Names& names = effect.names();
   properties.set(kOfxPropLabel, names.label);
@@ -58,6 +59,10 @@ void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle
   properties.trySet(kOfxImageEffectPluginPropFieldRenderTwiceAlways, 0);
   properties.trySet(kOfxImageEffectPropSupportsMultipleClipDepths, 1);
   properties.trySet(kOfxImageEffectPropSupportsMultipleClipPARs, 0);
+  if (hasOpenCl) {
+    properties.trySet(kOfxImageEffectPropOpenCLRenderSupported, "true");
+    properties.trySet(kOfxImageEffectPropCPURenderSupported, "true");
+  }
   declareColourManagement(host, descriptor);
 }
 

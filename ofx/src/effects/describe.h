@@ -6,8 +6,9 @@
 
 namespace metamer::ofx {
 
-/// The describe action: what the effect is and can. @throws HostError
-void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor);
+/// The describe action: what the effect is and can. @param hasOpenCl  it renders in OpenCL buffers too @throws
+/// HostError
+void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor, bool hasOpenCl);
 
 /// The describe-in-context action: clips and parameters, the same in every context. @throws HostError
 void describeInContext(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor);

@@ -16,7 +16,6 @@
 #include <string_view>
 
 #include "effects/actions.h"
-#include "effects/plugin.h"
 
 namespace {
 
@@ -76,7 +75,7 @@ OfxStatus enter(std::size_t index, const char* action, const void* handle, OfxPr
     const std::shared_ptr<Plugin> current = plugin();
     // The interface hands effects out as constant; they are the host's own.
     auto* effect = static_cast<OfxImageEffectHandle>(const_cast<void*>(handle));
-    return perform(current->host(), current->effect(index), action, effect, inArguments, outArguments);
+    return perform(*current, index, action, effect, inArguments, outArguments);
   } catch (const HostError& error) {
     return error.status();
   } catch (const std::bad_alloc&) {

@@ -2,6 +2,7 @@
 #include "effects/instance.h"
 
 #include "host/colour_management.h"
+#include "host/device_properties.h"
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::ofx {
@@ -25,10 +26,11 @@ RenderQuality renderQuality(const PropertySet& arguments) {
 
 }  // namespace
 
-Instance::Instance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle)
+Instance::Instance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle, OpenClRenderer* openCl)
     : m_host(host),
       m_effect(effect),
       m_handle(handle),
+      m_openCl(openCl),
       m_values(host, handle, effect.parameters()),
       m_messages(host, handle),
       m_source(clip(kOfxImageEffectSimpleSourceClipName)),
@@ -152,7 +154,23 @@ void Instance::render(const PropertySet& arguments) {
     transform->prepare(renderQuality(arguments));
     job.transform = transform.get();
   }
-  ofx::render(m_host, job, [this] { return m_host.effect->abort(m_handle) != 0; });
+  renderJob(arguments, job);
+}
+
+void Instance::renderJob(const PropertySet& arguments, const RenderJob& job) {
+  const auto isAborted = [this] { return m_host.effect->abort(m_handle) != 0; };
+  if (arguments.findInt(kOfxImageEffectPropOpenCLEnabled).value_or(0) == 0) {
+    ofx::render(m_host, job, isAborted);
+    return;
+  }
+  if (m_openCl == nullptr) {
+    throw HostError(kOfxStatGPURenderFailed, "OpenCL buffers, which were not offered to be taken");
+  }
+  void* const queue = arguments.getPointer(kOfxImageEffectPropOpenCLCommandQueue);
+  const std::string refused = m_openCl->render(m_host, queue, job, isAborted);
+  if (!refused.empty()) {
+    m_messages.note(refused + "; the processor renders, more slowly. METAMER_OFX_OPENCL=off switches devices off");
+  }
 }
 
 }  // namespace metamer::ofx

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "device/opencl_renderer.h"
 #include "effects/effect.h"
 #include "host/host.h"
 #include "host/message.h"
@@ -19,8 +20,9 @@ inline constexpr const char* kMaskClipName = "Mask";
 /// One use of an effect in a project. Its actions are safe to run at once from several threads.
 class Instance {
  public:
+  /// @param openCl  renders in the host's OpenCL buffers; null: nothing does
   /// @throws HostError
-  Instance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle);
+  Instance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle, OpenClRenderer* openCl);
 
   void instanceChanged(const PropertySet& arguments);
   void render(const PropertySet& arguments);
@@ -31,6 +33,8 @@ class Instance {
   MessageBoard& messages() { return m_messages; }
 
  private:
+  /// Renders where the host keeps its images. @throws HostError
+  void renderJob(const PropertySet& arguments, const RenderJob& job);
   /// Nothing where the parameters have no meaning: the message then says why.
   std::shared_ptr<const PixelTransform> transformOrMessage(double time);
   std::optional<std::string> hostSpace() const;
@@ -41,6 +45,7 @@ class Instance {
   const HostSuites& m_host;
   const Effect& m_effect;
   OfxImageEffectHandle m_handle;
+  OpenClRenderer* m_openCl;
   ParameterValues m_values;
   MessageBoard m_messages;
   OfxImageClipHandle m_source;

@@ -22,6 +22,15 @@ void MessageBoard::show(const std::string& text) {
   }
 }
 
+void MessageBoard::note(const std::string& text) {
+  const std::lock_guard lock(m_mutex);
+  if (m_hasNoted || m_host.persistentMessage == nullptr || !m_shown.empty()) {
+    return;
+  }
+  m_hasNoted = true;
+  m_host.persistentMessage->setPersistentMessage(m_instance, kOfxMessageWarning, kMessageId, "%s", text.c_str());
+}
+
 void MessageBoard::clear() {
   const std::lock_guard lock(m_mutex);
   if (m_shown.empty()) {

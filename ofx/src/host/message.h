@@ -16,6 +16,8 @@ class MessageBoard {
   /// Shows one line until clear(); the same text again is not shown anew. Hosts without persistent messages get an
   /// ordinary one, hosts without any get none.
   void show(const std::string& text);
+  /// Shows what is no error, once in an instance's life, where the host has a place for it that interrupts nobody.
+  void note(const std::string& text);
   /// Takes back what show() showed.
   void clear();
 
@@ -24,6 +26,7 @@ class MessageBoard {
   OfxImageEffectHandle m_instance;
   std::mutex m_mutex;
   std::string m_shown;
+  bool m_hasNoted = false;
 };
 
 }  // namespace metamer::ofx

@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include "pixels/device_form.h"
+
 namespace metamer::ofx {
 
 /// What a render is for. A draft is seen while a slider is drawn, and rendered again.
@@ -26,6 +28,10 @@ class PixelTransform {
 
   /// Whether T(k c) = k T(c) for k > 0: premultiplied pixels may then be given as they are.
   virtual bool isHomogeneous() const = 0;
+
+  /// What a device runs in the place of apply(), once that is prepared; lives as long as the transform. Null where
+  /// there is nothing that gives its bits.
+  virtual const DeviceForm* deviceForm() const { return nullptr; }
 };
 
 }  // namespace metamer::ofx

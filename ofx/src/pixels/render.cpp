@@ -220,6 +220,11 @@ PixelView copyOf(const PixelView& image, const OfxRectI& window, std::vector<uns
 
 }  // namespace
 
+int firstRow(FieldToRender field, const OfxRectI& window) {
+  const bool isOther = field != FieldToRender::Whole && (window.y1 % 2 != 0) != (field == FieldToRender::Upper);
+  return isOther ? window.y1 + 1 : window.y1;
+}
+
 void render(const HostSuites& host, const RenderJob& given, const std::function<bool()>& isAborted) {
   const OfxRectI window = given.output.data == nullptr ? OfxRectI{} : intersection(given.window, given.output.bounds);
   if (isEmpty(window)) {
@@ -234,12 +239,8 @@ void render(const HostSuites& host, const RenderJob& given, const std::function<
   if (job.hasMask && interferes(job.mask, job.output)) {
     job.mask = copyOf(job.mask, window, maskCopy);
   }
-  // Rows of the field: even ones are the lower field's.
-  const int step = job.field == FieldToRender::Whole ? 1 : 2;
-  int first = window.y1;
-  if (step == 2 && (first % 2 != 0) != (job.field == FieldToRender::Upper)) {
-    ++first;
-  }
+  const int step = rowStep(job.field);
+  const int first = firstRow(job.field, window);
   const int rows = first < window.y2 ? (window.y2 - first + step - 1) / step : 0;
   const int rowsPerTurn = std::max(1, kPixelsPerTurn / (window.x2 - window.x1));
   const int turns = (rows + rowsPerTurn - 1) / rowsPerTurn;

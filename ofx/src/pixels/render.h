@@ -11,6 +11,13 @@ namespace metamer::ofx {
 
 enum class FieldToRender { Whole, Lower, Upper };
 
+/// The rows of a window that are the field's: from the first, which may lie above the window, at this step. Even rows
+/// are the lower field's.
+int firstRow(FieldToRender field, const OfxRectI& window);
+inline int rowStep(FieldToRender field) {
+  return field == FieldToRender::Whole ? 1 : 2;
+}
+
 /// One render call: what is read, where it goes, how much of it.
 struct RenderJob {
   PixelView output;

@@ -116,4 +116,15 @@ void SkinPixels::findPlaces(const float* rgba, std::size_t count, Places& places
   }
 }
 
+sip::DeviceTables SkinPixels::deviceTables() const {
+  const skin::SkinChromaticities& range = m_look.chromaticities();
+  const Eigen::Array2f low = range.low.cast<float>();
+  const Eigen::Array2f scale = (m_cells / (range.high - range.low)).cast<float>();
+  sip::DeviceTables tables;
+  tables.nodes.push_back({low[0], low[1], scale[0], scale[1]});
+  tables.nodes.insert(tables.nodes.end(), m_changes.begin(), m_changes.end());
+  tables.cells = {static_cast<std::uint32_t>(m_cells)};
+  return tables;
+}
+
 }  // namespace metamer::ofx

@@ -29,6 +29,7 @@ class SkinPixels final : public PixelTransform {
   void apply(std::span<const float> source, std::span<float> destination) const override;
   bool isIdentity() const override { return m_look.isIdentity(); }
   bool isHomogeneous() const override { return !m_encoding; }
+  const DeviceForm* deviceForm() const override { return m_changes.empty() || m_encoding ? nullptr : &m_deviceForm; }
 
  private:
   using Change = std::array<float, 4>;
@@ -44,6 +45,7 @@ class SkinPixels final : public PixelTransform {
   void applyLinear(std::span<const float> source, std::span<float> destination) const;
   void applyMap(std::span<const float> source, std::span<float> destination) const;
   void findPlaces(const float* rgba, std::size_t count, Places& places) const;
+  sip::DeviceTables deviceTables() const;
 
   skin::SkinLook m_look;
   std::optional<spectral::LogEncoding> m_encoding;
@@ -51,6 +53,7 @@ class SkinPixels final : public PixelTransform {
   Quality m_quality;
   int m_cells;                    ///< along each chromaticity
   std::vector<Change> m_changes;  ///< of a colour of mean one, by knot; the fourth is nothing
+  DeviceForm m_deviceForm{DeviceForm::Kernel::Skin, [this] { return deviceTables(); }};
 };
 
 }  // namespace metamer::ofx

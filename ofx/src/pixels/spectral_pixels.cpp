@@ -71,6 +71,10 @@ class SpectralPixels final : public PixelTransform {
 
   bool isIdentity() const override { return m_engine->exact().isIdentity(); }
   bool isHomogeneous() const override { return !m_encoding; }
+  const DeviceForm* deviceForm() const override {
+    const sip::HomogeneousMap* const map = m_map;
+    return map == nullptr || m_encoding ? nullptr : &m_engine->deviceForm(*map);
+  }
 
  private:
   void applyLinear(std::span<const float> source, std::span<float> destination) const {

@@ -42,6 +42,10 @@ class SpectralEngine {
   const sip::HomogeneousMap& map() const;
   /// map() where it is there; else a coarse one, in a fraction of the time.
   const sip::HomogeneousMap& draftMap() const;
+  /// Of a map that one of these has returned.
+  const DeviceForm& deviceForm(const sip::HomogeneousMap& map) const {
+    return m_hasMap && &map == &*m_map ? m_mapForm : m_draftForm;
+  }
 
  private:
   sip::TransformSpec m_spec;
@@ -53,6 +57,8 @@ class SpectralEngine {
   mutable std::atomic<bool> m_hasMap = false;
   mutable std::mutex m_draftMutex;
   mutable std::optional<sip::HomogeneousMap> m_draft;
+  DeviceForm m_mapForm{DeviceForm::Kernel::Map, [this] { return sip::deviceTables(*m_map); }};
+  DeviceForm m_draftForm{DeviceForm::Kernel::Map, [this] { return sip::deviceTables(*m_draft); }};
 };
 
 enum class Quality { Map, Exact };

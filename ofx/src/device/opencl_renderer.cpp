@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device/opencl_renderer.h"
+
+#include <algorithm>
+#include <array>
+
+#include "device/opencl_images.h"
+#include "device/opencl_read_back.h"
+#include "host/device_properties.h"
+
+namespace metamer::ofx {
+namespace {
+
+/// Work items that run together, where the device has as many.
+constexpr std::size_t kGroup = 64;
+
+const char* nameOf(DeviceForm::Kernel kernel) {
+  return kernel == DeviceForm::Kernel::Map ? kMapWindow : kSkinWindow;
+}
+
+/// Tables of a form in a context.
+struct Tables final : DeviceForm::Copy {
+  Tables(OpenCl::Owned nodesGiven, OpenCl::Owned cellsGiven)
+      : nodes(std::move(nodesGiven)), cells(std::move(cellsGiven)) {}
+
+  OpenCl::Owned nodes;
+  OpenCl::Owned cells;
+};
+
+template <typename Value>
+OpenCl::Owned uploaded(const OpenCl& library, OpenCl::Handle context, const std::vector<Value>& values) {
+  OpenCl::Status status = OpenCl::kSuccess;
+  OpenCl::Owned buffer(library.createBuffer(context, OpenCl::kReadOnly | OpenCl::kCopiesHost,
+                                            values.size() * sizeof(Value), values.data(), &status),
+                       library.releaseBuffer);
+  OpenClError::check(status, "a buffer for tables");
+  return buffer;
+}
+
+template <typename Value>
+Value told(OpenCl::Status (*info)(OpenCl::Handle, std::uint32_t, std::size_t, void*, std::size_t*),
+           OpenCl::Handle queue, std::uint32_t what) {
+  Value value{};
+  OpenClError::check(info(queue, what, sizeof value, &value, nullptr), "asking the queue");
+  return value;
+}
+
+Window windowOf(const RenderJob& job, const OfxRectI& area) {
+  Window window;
+  window.x1 = area.x1;
+  window.y1 = firstRow(job.field, area);
+  window.width = area.x2 - area.x1;
+  window.rowStep = rowStep(job.field);
+  window.rows = std::max(0, (area.y2 - window.y1 + window.rowStep - 1) / window.rowStep);
+  window.hasMask = job.hasMask ? 1 : 0;
+  window.mix = static_cast<float>(std::clamp(job.mix, 0.0, 1.0));
+  const bool isWhole = window.mix >= 1.0F && !job.hasMask;
+  window.copiesCodes = job.transform == nullptr && isWhole && job.source.format == job.output.format ? 1 : 0;
+  return window;
+}
+
+}  // namespace
+
+std::unique_ptr<OpenClRenderer> OpenClRenderer::load() {
+  auto library = OpenCl::load();
+  return library == nullptr ? nullptr : std::unique_ptr<OpenClRenderer>(new OpenClRenderer(std::move(library)));
+}
+
+std::string OpenClRenderer::render(const HostSuites& host, void* queue, const RenderJob& job,
+                                   const std::function<bool()>& isAborted) {
+  std::string refused;
+  try {
+    if (enqueue(queue, job)) {
+      return {};
+    }
+  } catch (const OpenClError& error) {
+    refused = error.what();
+  }
+  try {
+    renderReadBack(host, *m_library, queue, job, isAborted);
+  } catch (const OpenClError& error) {
+    throw HostError(kOfxStatGPURenderFailed, error.what());
+  }
+  return refused;
+}
+
+bool OpenClRenderer::enqueue(OpenCl::Handle queue, const RenderJob& job) {
+  const OpenCl& library = *m_library;
+  const OfxRectI area = intersection(job.window, job.output.bounds);
+  if (isEmpty(area)) {
+    return true;
+  }
+  const DeviceForm* const form = job.transform == nullptr ? nullptr : job.transform->deviceForm();
+  const std::array<OpenClImage, 3> images = {openClImage(library, job.source), openClImage(library, job.mask),
+                                             openClImage(library, job.output)};
+  const OpenClImage& output = images.back();
+  std::array<WindowImage, 3> forms{};
+  bool isUsual = job.transform == nullptr || form != nullptr;
+  for (std::size_t i = 0; i < images.size() && isUsual; ++i) {
+    const auto image = windowImage(images[i]);
+    isUsual = image && !interferes(library, images[i], output);
+    forms[i] = image.value_or(WindowImage{});
+  }
+  if (!isUsual) {
+    return false;
+  }
+  const auto context = told<OpenCl::Handle>(library.queueInfo, queue, OpenCl::kQueueContext);
+  const auto device = told<OpenCl::Handle>(library.queueInfo, queue, OpenCl::kQueueDevice);
+  const OpenCl::Owned kernel =
+      m_programs.kernel(context, device, form == nullptr ? kCopyWindow : nameOf(form->kernel()));
+  std::shared_ptr<const DeviceForm::Copy> copy;
+  if (form != nullptr) {
+    copy = form->copyAt(context, [&](const sip::DeviceTables& tables) {
+      return std::make_shared<const Tables>(uploaded(library, context, tables.nodes),
+                                            uploaded(library, context, tables.cells));
+    });
+  }
+  const Window window = windowOf(job, area);
+  const auto set = [&](WindowArgument argument, const auto& value) {
+    OpenClError::check(library.setArgument(kernel.get(), static_cast<std::uint32_t>(argument), sizeof value, &value),
+                       "an argument");
+  };
+  // Where there is no image, no table, any buffer stands for it: it is not looked at.
+  const auto bufferOf = [&](const OpenClImage& image) { return image.isThere() ? image.buffer : output.buffer; };
+  const auto* const tables = static_cast<const Tables*>(copy.get());
+  set(WindowArgument::Source, bufferOf(images[0]));
+  set(WindowArgument::SourceImage, forms[0]);
+  set(WindowArgument::Mask, bufferOf(images[1]));
+  set(WindowArgument::MaskImage, forms[1]);
+  set(WindowArgument::Output, output.buffer);
+  set(WindowArgument::OutputImage, forms[2]);
+  set(WindowArgument::Window, window);
+  set(WindowArgument::Nodes, tables == nullptr ? output.buffer : tables->nodes.get());
+  set(WindowArgument::Cells, tables == nullptr ? output.buffer : tables->cells.get());
+  std::size_t most = 1;
+  OpenClError::check(library.groupInfo(kernel.get(), device, OpenCl::kGroupSize, sizeof most, &most, nullptr),
+                     "asking the kernel");
+  const std::array<std::size_t, 2> group = {std::min(kGroup, most), 1};
+  const auto width = static_cast<std::size_t>(window.width);
+  const std::array<std::size_t, 2> items = {(width + group[0] - 1) / group[0] * group[0],
+                                            static_cast<std::size_t>(window.rows)};
+  OpenClError::check(
+      library.enqueueKernel(queue, kernel.get(), 2, nullptr, items.data(), group.data(), 0, nullptr, nullptr),
+      "the kernel");
+  return true;
+}
+
+}  // namespace metamer::ofx

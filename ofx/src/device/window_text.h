@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace metamer::ofx {
+
+/// An image as the kernels are told of it; the text has the same.
+struct WindowImage {
+  std::int64_t start = 0;     ///< byte of the pixel (0, 0), or where it would be, in its buffer
+  std::int64_t rowBytes = 0;  ///< from a row to the one above; may be negative
+  std::int32_t x1 = 0;        ///< bounds; empty: there is no image
+  std::int32_t y1 = 0;
+  std::int32_t x2 = 0;
+  std::int32_t y2 = 0;
+  std::int32_t channelBytes = 4;  ///< 4: float, 2: half
+  std::int32_t channels = 4;      ///< 4: RGBA, 3: RGB, 1: alpha
+};
+
+/// What is rendered.
+struct Window {
+  std::int32_t x1 = 0;
+  std::int32_t y1 = 0;
+  std::int32_t width = 0;
+  std::int32_t rows = 0;
+  std::int32_t rowStep = 1;  ///< 2: every other row, those of a field
+  std::int32_t hasMask = 0;
+  float mix = 1.0F;
+  std::int32_t copiesCodes = 0;  ///< nothing is done to a pixel, nor to its format
+};
+
+/// The arguments of each kernel, in order.
+enum class WindowArgument : std::uint32_t {
+  Source,
+  SourceImage,
+  Mask,
+  MaskImage,
+  Output,
+  OutputImage,
+  Window,
+  Nodes,
+  Cells
+};
+
+/// Kernels over a window, one work item a pixel and row: pixels in the host's memory as render() takes them, to its
+/// bits.
+inline constexpr const char* kCopyWindow = "metamerCopyWindow";  ///< reads no tables
+inline constexpr const char* kMapWindow = "metamerMapWindow";    ///< tables of sip::DeviceKernel::Map
+inline constexpr const char* kSkinWindow = "metamerSkinWindow";  ///< tables of SkinPixels
+
+/// OpenCL C 1.2 of all of them.
+std::string openClWindowText();
+
+}  // namespace metamer::ofx

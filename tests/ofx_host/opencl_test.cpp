@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+// Renders where the host keeps its images in OpenCL buffers: the processor's bits, and no waiting.
+#include <chrono>
+#include <future>
+#include <limits>
+#include <random>
+
+#include "opencl_fixture.h"
+
+namespace bare_host {
+namespace {
+
+constexpr OfxRectI kBounds = {-7, 11, 58, 40};
+constexpr OfxRectI kLarger = {-20, 0, 70, 55};
+const std::map<std::string, Properties::Value> kLamp = {{"outputIlluminant", "HP1"}, {"adaptation", 0.3}};
+
+TEST_F(OfxOpenCl, EveryShapeOfMemoryGivesTheProcessorsBits) {
+  const Host host(builtLibrary(), {.openCl = true});
+  const auto effect = host.create(0, kLamp);
+  for (const bool topDown : {false, true}) {
+    for (const int padding : {0, 4, 20}) {
+      for (const char* const components : {kOfxImageComponentRGBA, kOfxImageComponentRGB}) {
+        for (const char* const depth : {kOfxBitDepthFloat, kOfxBitDepthHalf}) {
+          SCOPED_TRACE(std::string(depth) + " " + components + " padding " + std::to_string(padding));
+          const Frame::Shape source{kLarger, depth, components, padding, topDown};
+          const Frame::Shape output{kBounds, depth, components, 2 * padding, !topDown};
+          expectTheProcessorsBits(*effect, {.source = source, .output = output, .window = kBounds});
+        }
+      }
+    }
+  }
+  // Formats that differ, windows within, pictures that end within the window, parts of larger buffers.
+  const Frame::Shape half{{0, 15, 30, 30}, kOfxBitDepthHalf, kOfxImageComponentRGB, 2};
+  expectTheProcessorsBits(*effect, {.source = half, .output = {kBounds}, .window = kBounds});
+  expectTheProcessorsBits(*effect, {.source = {kLarger}, .output = half, .window = {5, 17, 22, 29}});
+  expectTheProcessorsBits(
+      *effect, {.source = {kLarger}, .output = {kBounds}, .window = kBounds, .begin = m_device.partAlignment()});
+  for (const char* const field : {kOfxImageFieldLower, kOfxImageFieldUpper}) {
+    expectTheProcessorsBits(*effect, {.source = {kLarger}, .output = {kBounds}, .window = kBounds, .field = field});
+  }
+  // Beyond a half's range, below a float's, and no number at all.
+  for (const float gain : {1e4F, 1e-41F, std::numeric_limits<float>::infinity()}) {
+    for (const char* const depth : {kOfxBitDepthFloat, kOfxBitDepthHalf}) {
+      expectTheProcessorsBits(*effect,
+                              {.source = {kLarger}, .output = {kBounds, depth}, .window = kBounds, .gain = gain});
+    }
+  }
+  EXPECT_EQ(ledger()->waits, 0);
+  EXPECT_EQ(ledger()->kernels, 24 + 5 + 6);
+}
+
+TEST_F(OfxOpenCl, MaskMixAndPassingThrough) {
+  const Host host(builtLibrary(), {.openCl = true});
+  const auto effect = host.create(0, kLamp);
+  const Case whole{.source = {kLarger}, .output = {kBounds}, .window = kBounds};
+  Frame mask({{0, 5, 50, 30}, kOfxBitDepthFloat, kOfxImageComponentAlpha, 8, true});
+  mask.fill(testPixel);
+  Frame halfMask({{0, 5, 50, 30}, kOfxBitDepthHalf, kOfxImageComponentAlpha});
+  halfMask.fill(testPixel);
+  for (const double mix : {0.0, 0.3, 1.0}) {
+    effect->set("mix", mix);
+    for (const Frame* const matte : std::initializer_list<const Frame*>{nullptr, &mask, &halfMask}) {
+      for (const char* const premultiplication : {kOfxImagePreMultiplied, kOfxImageOpaque}) {
+        Case given = whole;
+        given.mask = matte;
+        given.premultiplication = premultiplication;
+        expectTheProcessorsBits(*effect, given);
+      }
+    }
+  }
+  // Nothing to do: pixels pass, code for code.
+  effect->set("outputIlluminant", "D65");
+  expectTheProcessorsBits(*effect, whole);
+  const Frame::Shape half{kBounds, kOfxBitDepthHalf};
+  expectTheProcessorsBits(*effect, {.source = half, .output = half, .window = kBounds});
+  EXPECT_EQ(ledger()->waits, 0);
+}
+
+TEST_F(OfxOpenCl, WhatNoKernelDoesIsReadBack) {
+  const Host host(builtLibrary(), {.openCl = true});
+  const auto effect = host.create(0, kLamp);
+  // Whole numbers; rows off their alignment; a log space; pixel by pixel.
+  const Frame::Shape codes{kLarger, kOfxBitDepthByte, kOfxImageComponentRGBA, 5, true};
+  expectTheProcessorsBits(*effect, {.source = codes, .output = {kBounds}, .window = {0, 12, 40, 30}});
+  expectTheProcessorsBits(*effect,
+                          {.source = {kLarger}, .output = codes, .window = kBounds, .field = kOfxImageFieldUpper});
+  const Frame::Shape odd{kBounds, kOfxBitDepthHalf, kOfxImageComponentRGB, 3};
+  expectTheProcessorsBits(*effect, {.source = odd, .output = odd, .window = kBounds});
+  effect->set("space", "ACEScct");
+  expectTheProcessorsBits(*effect, {.source = {kLarger}, .output = {kBounds}, .window = kBounds});
+  effect->set("space", "ACEScg");
+  effect->set("quality", "Exact");
+  expectTheProcessorsBits(*effect, {.source = {kLarger}, .output = {kBounds}, .window = kBounds});
+  EXPECT_EQ(ledger()->kernels, 0);
+  EXPECT_EQ(effect->message(), "");
+}
+
+TEST_F(OfxOpenCl, OneBufferForBothIsRight) {
+  const Host host(builtLibrary(), {.openCl = true});
+  const auto effect = host.create(0, kLamp);
+  Frame frame({.bounds = kLarger});
+  frame.fill(testPixel);
+  Frame expected({.bounds = kLarger});
+  effect->connect("Source", frame.image());
+  effect->connect("Output", expected.image());
+  ASSERT_EQ(draft(*effect, kLarger), kOfxStatOK);
+  effect->useOpenCl(m_device.queue());
+  {
+    const OpenClFrame there(m_device, frame);
+    effect->connect("Source", there.image());
+    effect->connect("Output", there.image());
+    ASSERT_EQ(draft(*effect, kLarger), kOfxStatOK);
+    Frame before = frame;
+    EXPECT_TRUE(there.bring());
+    expectEqual(frame, expected);
+    EXPECT_EQ(ledger()->kernels, 1);
+    frame = before;
+  }
+  // The same rows, upside down: a kernel would read what it has written.
+  const OpenClFrame there(m_device, frame);
+  Image turned = there.image();
+  turned.rowBytes = -turned.rowBytes;
+  effect->connect("Source", there.image());
+  effect->connect("Output", turned);
+  ASSERT_EQ(draft(*effect, kLarger), kOfxStatOK);
+  EXPECT_TRUE(there.bring());
+  EXPECT_EQ(ledger()->kernels, 1);
+  for (int x = kLarger.x1; x < kLarger.x2; ++x) {
+    EXPECT_EQ(frame.bytes(x, kLarger.y2 - 1), expected.bytes(x, kLarger.y1));
+  }
+}
+
+TEST_F(OfxOpenCl, ReturnsBeforeTheHostLetsItsQueueRun) {
+  const Host host(builtLibrary(), {.openCl = true});
+  const auto effect = host.create(0, kLamp);
+  Frame source({.bounds = kBounds});
+  source.fill(testPixel);
+  Frame expected({.bounds = kBounds});
+  effect->connect("Source", source.image());
+  effect->connect("Output", expected.image());
+  ASSERT_EQ(draft(*effect, kBounds), kOfxStatOK);
+  Frame output({.bounds = kBounds});
+  const OpenClFrame sourceThere(m_device, source);
+  const OpenClFrame outputThere(m_device, output);
+  effect->connect("Source", sourceThere.image());
+  effect->connect("Output", outputThere.image());
+  effect->useOpenCl(m_device.queue());
+  void* const event = m_device.hold();
+  auto rendered = std::async(std::launch::async, [&] { return draft(*effect, kBounds); });
+  const bool hasReturned = rendered.wait_for(std::chrono::seconds(20)) == std::future_status::ready;
+  m_device.signal(event);
+  EXPECT_TRUE(hasReturned);
+  ASSERT_EQ(rendered.get(), kOfxStatOK);
+  EXPECT_TRUE(outputThere.bring());
+  expectEqual(output, expected);
+}
+
+TEST_F(OfxOpenCl, BuildsOnceAndUploadsOnceAMap) {
+  const OpenClLedger* const seen = ledger();
+  Case whole{.source = {kLarger}, .output = {kBounds}, .window = kBounds, .isDraft = false};
+  {
+    const Host host(builtLibrary(), {.openCl = true});
+    const auto effect = host.create(0, kLamp);
+    const auto other = host.create(0, kLamp);
+    for (const int queue : {0, 1, 0}) {
+      whole.queue = queue;
+      expectTheProcessorsBits(*effect, whole);
+      expectTheProcessorsBits(*other, whole);
+    }
+    EXPECT_EQ(seen->programs, 1);
+    EXPECT_EQ(seen->uploads, 2) << "nodes and cells, for both queues and instances";
+    // Another context, and another light, have tables of their own.
+    {
+      const OpenClHost second;
+      expectTheProcessorsBits(*effect, whole, second);
+      EXPECT_EQ(seen->programs, 2);
+      EXPECT_EQ(seen->buffers, 4);
+    }
+    effect->set("outputIlluminant", "A");
+    whole.isDraft = true;
+    expectTheProcessorsBits(*effect, whole);
+    EXPECT_EQ(seen->buffers, 6);
+    // Lights that are put out of the plug-in's cache have none.
+    effect->set("quality", "Exact");
+    effect->set("outputIlluminant", "Blackbody");
+    for (int k = 0; k < 30; ++k) {
+      effect->set("outputTemperature", 3000.0 + k);
+      ASSERT_EQ(effect->identity(kBounds), "");
+    }
+    EXPECT_EQ(seen->buffers, 0) << "tables of lights that are long gone";
+  }
+  EXPECT_EQ(seen->programs, 2);
+  EXPECT_EQ(seen->released, 2);
+  EXPECT_EQ(seen->waits, 0);
+}
+
+TEST_F(OfxOpenCl, SkinGivesTheProcessorsBits) {
+  const Host host(builtLibrary(), {.openCl = true});
+  const auto effect = host.create(2, {{"melanin", 1.6}, {"flush", 0.5}});
+  Frame mask({kBounds, kOfxBitDepthFloat, kOfxImageComponentAlpha});
+  mask.fill(testPixel);
+  for (const char* const depth : {kOfxBitDepthFloat, kOfxBitDepthHalf}) {
+    expectTheProcessorsBits(*effect, {.source = {kLarger, depth}, .output = {kBounds, depth}, .window = kBounds});
+    expectTheProcessorsBits(*effect,
+                            {.source = {kLarger, depth}, .output = {kBounds, depth}, .mask = &mask, .window = kBounds});
+  }
+  effect->set("matte", 0);
+  expectTheProcessorsBits(*effect, {.source = {kLarger}, .output = {kBounds}, .window = kBounds});
+  EXPECT_EQ(ledger()->waits, 0);
+}
+
+TEST_F(OfxOpenCl, RandomParameters) {
+  // METAMER_LONG=1: the thousand.
+  const int count = std::getenv("METAMER_LONG") != nullptr ? 1000 : 12;
+  std::mt19937 generator(22);
+  const auto below = [&](int most) { return static_cast<int>(generator() % static_cast<unsigned>(most)); };
+  const auto share = [&] { return static_cast<double>(generator()) / 4294967296.0; };
+  const Host host(builtLibrary(), {.openCl = true});
+  const auto effect = host.create(0);
+  for (int i = 0; i < count && !HasFatalFailure(); ++i) {
+    SCOPED_TRACE(i);
+    for (auto& [name, parameter] : effect->effect().parameters) {
+      if (parameter->type == kOfxParamTypeChoice) {
+        effect->set(name, below(parameter->properties.dimension(kOfxParamPropChoiceOption)));
+      } else if (parameter->type == kOfxParamTypeBoolean) {
+        effect->set(name, below(2));
+      } else if (parameter->type == kOfxParamTypeDouble) {
+        effect->set(name, name.find("Temperature") != std::string::npos ? 1500 + 9000 * share() : share());
+      }
+    }
+    // What a kernel does, most of the time; drafts, whose maps are soon made.
+    if (below(6) != 0) {
+      effect->set("space", "Rec.2020");
+      effect->set("scene", "Natural");
+    }
+    effect->set("inputFilter", "None");
+    effect->set("inputObserver", "CIE 1931 2");
+    effect->set("quality", below(10) == 0 ? "Exact" : "Map");
+    const auto shape = [&] {
+      const int x = below(20) - 20;
+      const int y = below(12) - 12;
+      return Frame::Shape{.bounds = {x, y, x + below(70), y + below(30)},
+                          .depth = below(2) == 0 ? kOfxBitDepthFloat : kOfxBitDepthHalf,
+                          .components = below(8) == 0   ? kOfxImageComponentAlpha
+                                        : below(2) == 0 ? kOfxImageComponentRGB
+                                                        : kOfxImageComponentRGBA,
+                          .padding = 4 * below(3),
+                          .topDown = below(2) == 0};
+    };
+    Frame mask({.bounds = shape().bounds, .components = kOfxImageComponentAlpha});
+    mask.fill(testPixel);
+    expectTheProcessorsBits(*effect, {.source = shape(),
+                                      .output = shape(),
+                                      .mask = below(3) == 0 ? &mask : nullptr,
+                                      .window = shape().bounds,
+                                      .premultiplication = below(2) == 0 ? kOfxImagePreMultiplied : kOfxImageOpaque,
+                                      .isDraft = below(8) != 0,
+                                      .queue = below(2)});
+  }
+  std::printf("%d parameter sets, %d of them by a kernel\n", count, ledger()->kernels);
+  EXPECT_GT(ledger()->kernels, count / 4);
+}
+
+}  // namespace
+}  // namespace bare_host
