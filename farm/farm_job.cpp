@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <deque>
-#include <system_error>
 
 #include "engines.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/pending_folder.h"
 
 namespace metamer::farm {
 namespace {
@@ -27,23 +27,20 @@ void requireFewTasks(const FarmJob& job) {
   }
 }
 
-void makeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
-    throw InputError(spectral::utf8(folder), "folder", "", "cannot be made (" + error.message() + "); name another");
-  }
-}
-
-/// All of a job or none of it.
-void writeTogether(const std::vector<JobText>& texts, const std::filesystem::path& folder) {
+/// All of a job or none of it, its folders among it.
+void writeTogether(const std::vector<JobText>& texts, const std::filesystem::path& folder,
+                   std::deque<spectral::PendingFolder>& folders) {
   std::deque<spectral::PendingFile> pending;
   std::vector<spectral::PendingFile*> files;
   for (const JobText& text : texts) {
     pending.emplace_back(folder / text.name).write(text.text);
     files.push_back(&pending.back());
   }
+  const spectral::SignalsWait untilAllAreThere;
   spectral::commitAll(files);
+  for (spectral::PendingFolder& made : folders) {
+    made.keep();
+  }
 }
 
 }  // namespace
@@ -51,18 +48,19 @@ void writeTogether(const std::vector<JobText>& texts, const std::filesystem::pat
 std::string writeJob(const FarmJob& job, const JobTarget& target) {
   requireFewTasks(job);
   const std::filesystem::path folder = std::filesystem::absolute(target.folder).lexically_normal();
-  makeFolder(folder);
+  std::deque<spectral::PendingFolder> folders;
+  folders.emplace_back(folder);
   for (const JobFile& file : job.files) {
     if (file.isFolder && file.flow != JobFile::Flow::In) {
-      makeFolder(file.path);
+      folders.emplace_back(file.path);
     }
   }
   if (target.engine == JobTarget::Engine::Slurm) {
-    makeFolder(folder / "logs");
-    writeTogether(slurmScripts(job, folder), folder);
+    folders.emplace_back(folder / "logs");
+    writeTogether(slurmScripts(job, folder), folder, folders);
     return "sh " + typedWord(spectral::utf8(target.folder / "submit.sh"));
   }
-  writeTogether(openJobDescription(job), folder);
+  writeTogether(openJobDescription(job), folder, folders);
   return "openjd run " + typedWord(spectral::utf8(target.folder / "template.json")) + " --job-param " +
          typedWord("file://" + spectral::utf8(target.folder / "parameters.json"));
 }

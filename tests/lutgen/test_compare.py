@@ -247,7 +247,7 @@ class Config(LutgenTest):
 
     def test_a_file_in_the_place_of_the_folder(self):
         (self.folder / "luts").write_text("mine")
-        self.assertFails("config", "night.yaml", "-o", "out.ocio", says=["luts", "LUT folder"])
+        self.assertFails("config", "night.yaml", "-o", "out.ocio", says=["luts", "folder: cannot be made"])
 
     def test_name_description_and_family(self):
         self.assertWorks(

@@ -23,6 +23,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/pending_folder.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 
@@ -32,42 +33,12 @@ namespace {
 using spectral::InputError;
 namespace fs = std::filesystem;
 
-/// The LUT folder, removed again where it was made for nothing.
-class LutFolder {
- public:
-  explicit LutFolder(fs::path path) : m_path(std::move(path)) {
-    std::error_code failure;
-    if (!fs::exists(m_path, failure)) {
-      m_unfinished.emplace(m_path);
-    }
-    m_isNew = fs::create_directory(m_path, failure);
-    if (failure || !fs::is_directory(m_path, failure)) {
-      throw InputError(spectral::utf8(m_path), "LUT folder", "",
-                       "cannot be made; choose a folder that is there and writable for the config");
-    }
-  }
-  ~LutFolder() {
-    if (m_isNew) {
-      std::error_code none;
-      fs::remove(m_path, none);  // only where it is empty
-    }
-  }
-  LutFolder(const LutFolder&) = delete;
-  LutFolder& operator=(const LutFolder&) = delete;
-  const fs::path& path() const { return m_path; }
-
- private:
-  fs::path m_path;
-  std::optional<spectral::Unfinished> m_unfinished;
-  bool m_isNew = false;
-};
-
 /// OCIO takes lists of looks apart at these, and puts variables in for the last.
-void checkName(const std::string& name) {
+void checkName(const std::string& name, const std::string& where) {
   const bool hasControl = std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20; });
   if (name.empty() || hasControl || name.find_first_of(",:|/\\%$+\"") != std::string::npos || name.front() == '-' ||
       name.front() == ' ' || name.back() == ' ') {
-    throw InputError("recipe", "name", name,
+    throw InputError(where, "name", name,
                      "cannot be the name of a look: leave out , : | / \\ % $ + \" and a leading -");
   }
 }
@@ -78,11 +49,12 @@ std::set<std::string> checkNames(const std::vector<sip::Recipe>& recipes, const 
   std::set<std::string> given;
   std::set<std::string> replaced;
   for (const sip::Recipe& recipe : recipes) {
-    checkName(recipe.name);
+    const std::string recipeFile = recipe.where.empty() ? "recipe" : recipe.where;
+    checkName(recipe.name, recipeFile);
     const std::string look = spectral::lowerCase(recipe.name);
     const std::string named = spectral::lowerCase(namedTransformName(recipe.name));
     if (!given.insert(look).second) {
-      throw InputError("recipe", "name", recipe.name, "is the name of another recipe too; give each its own");
+      throw InputError(recipeFile, "name", recipe.name, "is the name of another recipe too; give each its own");
     }
     if (facts.looks.count(look) != 0 && !replaces) {
       throw InputError(where, "look", recipe.name,
@@ -275,7 +247,8 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
     throw InputError(spectral::utf8(file), "output", "",
                      "is a device or pipe, and a config has files beside it; name a file");
   }
-  const LutFolder lutFolder(folder / spectral::pathOf(options.lutFolder));
+  const fs::path lutFolder = folder / spectral::pathOf(options.lutFolder);
+  const spectral::PendingFolder madeForLuts(lutFolder);
   if (!base.empty()) {
     checkLoads(document.with("", "", ""), facts, folder, {}, where);
   }
@@ -304,7 +277,7 @@ ConfigReport writeConfig(const std::vector<sip::Recipe>& recipes, const spectral
       }
     };
     progress(0);
-    const BakedCore baked = bakeCore(core, library, options.size, options.tolerance, lutFolder.path());
+    const BakedCore baked = bakeCore(core, library, options.size, options.tolerance, lutFolder);
     const std::string lutName = nameOfLut(core);
     std::string pendingName;
     fs::path lutPath;

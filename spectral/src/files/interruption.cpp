@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <thread>
 
 #if defined(_WIN32)
 #include <io.h>
@@ -30,6 +32,8 @@ std::atomic<Slot*> firstSlot = nullptr;     // NOLINT
 std::atomic<unsigned> finishedFiles = 0;    // NOLINT
 std::atomic<int> waits = 0;                 // NOLINT
 std::atomic<int> waitingSignal = 0;         // NOLINT
+std::atomic<bool> isEnding = false;         // NOLINT
+thread_local int waitsOfThread = 0;         // NOLINT
 std::atomic<const char*> programName = "";  // NOLINT
 
 Slot* takeSlot() {
@@ -46,15 +50,11 @@ Slot* takeSlot() {
   return slot;
 }
 
-void removePath(const std::filesystem::path::value_type* path) {
+bool removePath(const std::filesystem::path::value_type* path) {
 #if defined(_WIN32)
-  if (_wunlink(path) != 0) {
-    _wrmdir(path);
-  }
+  return _wunlink(path) == 0 || _wrmdir(path) == 0;
 #else
-  if (unlink(path) != 0) {
-    rmdir(path);
-  }
+  return unlink(path) == 0 || rmdir(path) == 0;
 #endif
 }
 
@@ -79,13 +79,13 @@ const char* nameOf(int signal) {
   }
 }
 
-/// Twice: a folder is empty only once its files are gone.
+/// As often as something goes: a folder is empty only once what it holds is gone.
 void removeUnfinished() {
-  for (int round = 0; round < 2; ++round) {
+  bool hasRemoved = true;
+  while (hasRemoved) {
+    hasRemoved = false;
     for (Slot* slot = firstSlot; slot != nullptr; slot = slot->next) {
-      if (slot->isUnfinished) {
-        removePath(slot->path.data());
-      }
+      hasRemoved = (slot->isUnfinished && removePath(slot->path.data())) || hasRemoved;
     }
   }
 }
@@ -114,15 +114,31 @@ void report(int signal) {
   say("\n");
 }
 
+/// Other threads run on until the end. Those that come to a SignalsWait stay there, so that nothing gets its place
+/// after it was counted; or the signal finds them in it, and the last of them ends the program.
 extern "C" void endBy(int signal) {
+  waitingSignal = signal;
+  isEnding = true;
   if (waits > 0) {
-    waitingSignal = signal;
+    isEnding = false;
     return;
+  }
+  if (waitingSignal.exchange(0) == 0) {
+    return;  // another thread has taken it over
   }
   removeUnfinished();
   report(signal);
+  removeUnfinished();  // what a library has opened by its name meanwhile
   std::signal(signal, SIG_DFL);
   std::raise(signal);
+}
+
+void leave() {
+  if (--waits == 0) {
+    if (const int signal = waitingSignal.exchange(0)) {
+      endBy(signal);
+    }
+  }
 }
 
 #if !defined(_WIN32)
@@ -159,14 +175,20 @@ Unfinished::~Unfinished() {
 }
 
 SignalsWait::SignalsWait() {
+  if (++waitsOfThread > 1) {
+    return;
+  }
   ++waits;
+  while (isEnding || waitingSignal != 0) {
+    leave();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ++waits;
+  }
 }
 
 SignalsWait::~SignalsWait() {
-  if (--waits == 0) {
-    if (const int signal = waitingSignal.exchange(0)) {
-      endBy(signal);
-    }
+  if (--waitsOfThread == 0) {
+    leave();
   }
 }
 

@@ -54,6 +54,7 @@ PendingFile::PendingFile(fs::path target) : m_target(std::move(target)) {
   std::random_device random;
   for (int attempt = 0; attempt < 16; ++attempt) {
     m_path = partialName(beside, random());
+    const SignalsWait untilItIsThere;  // none that is made after a signal has removed what is unfinished
     m_unfinished.emplace(m_path);
     const std::unique_ptr<std::FILE, Close> file(openFile(m_path, "wbx"));
     if (file) {
@@ -75,7 +76,11 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::write(std::string_view contents) {
-  std::unique_ptr<std::FILE, Close> file(openFile(m_path, "wb"));
+  std::unique_ptr<std::FILE, Close> file;
+  {
+    const SignalsWait untilItIsOpen;
+    file.reset(openFile(m_path, "wb"));
+  }
   const bool written = file && std::fwrite(contents.data(), 1, contents.size(), file.get()) == contents.size() &&
                        std::fflush(file.get()) == 0;
   const int failure = errno;

@@ -3,12 +3,19 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <csignal>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "metamer/spectral/interruption.h"
+#include "metamer/spectral/pending_folder.h"
 #include "spectral/fixture.h"
 #include "spectral/temporary_folder.h"
 
@@ -100,9 +107,8 @@ TEST(InterruptionTest, ASignalRemovesWhatIsUnfinished) {
     EXPECT_EXIT(
         {
           endCleanlyBySignals("program");
-          std::filesystem::create_directory(folder / "luts");
-          const Unfinished made(folder / "luts");
-          PendingFile first(folder / "luts" / "a.cube");
+          const PendingFolder made(folder / "show" / "day" / "luts");
+          PendingFile first(folder / "show" / "day" / "luts" / "a.cube");
           PendingFile second(folder / "b.cube");
           second.write("new");
           if (isHeld) {
@@ -125,6 +131,67 @@ TEST(InterruptionTest, ASignalRemovesWhatIsUnfinished) {
   run(SIGTERM, true);
   EXPECT_EQ(contentsOf(folder / "b.cube"), "new");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+}
+
+// Threads go on while a signal is handled: what they finish is counted, or not there.
+TEST(InterruptionTest, WhatOtherThreadsFinishIsTold) {
+  for (int round = 0; round < 5; ++round) {
+    const TemporaryFolder folder;
+    std::array<int, 2> pipe{};
+    ASSERT_EQ(::pipe(pipe.data()), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      dup2(pipe[1], STDERR_FILENO);
+      endCleanlyBySignals("program");
+      std::atomic<int> next = 0;
+      std::vector<std::thread> threads;
+      for (int i = 0; i < 3; ++i) {
+        threads.emplace_back([&] {
+          while (true) {
+            writeWholeFile(folder / (std::to_string(++next) + ".cube"), "x");
+          }
+        });
+      }
+      while (next < 30 + 7 * round) {
+      }
+      std::raise(SIGTERM);
+      std::this_thread::sleep_for(std::chrono::seconds(60));  // where another thread ends the program
+      std::_Exit(1);
+    }
+    close(pipe[1]);
+    std::string said;
+    std::array<char, 200> piece{};
+    for (ssize_t count = 1; count > 0;) {
+      count = read(pipe[0], piece.data(), piece.size());
+      said.append(piece.data(), static_cast<std::size_t>(std::max<ssize_t>(0, count)));
+    }
+    close(pipe[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+    const auto left = std::distance(std::filesystem::directory_iterator(folder.path()), {});
+    EXPECT_EQ(said, "program: stopped by SIGTERM; files that are complete: " + std::to_string(left) + "\n");
+  }
+}
+
+TEST(PendingFolderTest, GoesWithWhatItMadeUnlessItIsKept) {
+  const TemporaryFolder folder;
+  namespace fs = std::filesystem;
+  {
+    const PendingFolder made(folder / "a" / "b");
+  }
+  EXPECT_TRUE(folder.isEmpty());
+  fs::create_directory(folder / "a");
+  {
+    const PendingFolder made(folder / "a" / "b" / "c");
+    writeWholeFile(folder / "a" / "b" / "file", "x");
+  }
+  EXPECT_FALSE(fs::exists(folder / "a" / "b" / "c"));
+  EXPECT_TRUE(fs::exists(folder / "a" / "b" / "file"));
+  PendingFolder(folder / "d" / "e").keep();
+  EXPECT_TRUE(fs::is_directory(folder / "d" / "e"));
+  EXPECT_NE(errorOf([&] { PendingFolder made(folder / "a" / "b" / "file"); }).find("folder: cannot be made: "),
+            std::string::npos);
 }
 
 // /dev/full takes no byte: what a full disk does.
