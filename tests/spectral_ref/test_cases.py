@@ -80,6 +80,7 @@ class Cases(unittest.TestCase):
             ((ascii_head + body + "0\n").encode(), "has no vertices"),
             (whole.replace(b"face 1", b"face 2") + b"0\n", "face 1 '0': has no vertices"),
             (binary + struct.pack("<B", 0), "has no vertices"),
+            (whole.replace(b"uchar", b"int").replace(b"3 0 1 2", b"3000" + 1000 * b" 0 1 2"), "face 0 '3000'"),
         ):
             (self.folder / "m.ply").write_bytes(data)
             self.refused(scene, "m.ply", says)
@@ -105,6 +106,10 @@ class Cases(unittest.TestCase):
             ("v 0 0 zero\n", ("m.obj:1", "v 'zero'")),
             ("v 0 0 0\0\n", ("m.obj:1", "no text")),
             ("", ("m.obj",)),
+            # What would take minutes: polygons of many corners, alone and together, and materials by the thousand.
+            (body + "f" + " 1 2 3" * 1000 + "\n", ("m.obj:6", "face '3000'", "export triangles")),
+            (body + ("f" + " 1 2 3" * 100 + "\n") * 50, ("m.obj:50", "face '300'", "export triangles")),
+            (body + "".join(f"o o{i}\nusemtl m{i}\nf 1 2 3\n" for i in range(4000)), ("usemtl '3873'", "export fewer")),
         ):
             mesh.write_text(text)
             self.refused(scene, *says)

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdint>
 #include <fstream>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
+#include "scene_file/polygon_budget.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -34,6 +36,9 @@ std::vector<std::string_view> wordsOf(std::string_view line) {
   }
   return words;
 }
+
+/// Materials by parts: Assimp looks every part up for every material.
+constexpr std::uint64_t kMostLookUps = 30'000'000;
 
 /// nan and inf, as printf writes them: triangles of such places are left out with a warning.
 bool isNoNumber(std::string_view word) {
@@ -61,6 +66,12 @@ class ObjCheck {
       }
       if (words[0] == "f" || words[0] == "l" || words[0] == "p") {
         checkCorners(words);
+      }
+      if (words[0] == "f" && !m_polygons.allows(words.size() - 1)) {
+        refuse("face", std::to_string(words.size() - 1), PolygonBudget::kRemedy);
+      }
+      if (words[0] == "o" || words[0] == "usemtl") {
+        addPart(words);
       }
     }
     // A face may come before its vertices.
@@ -110,6 +121,17 @@ class ObjCheck {
     }
   }
 
+  void addPart(const std::vector<std::string_view>& words) {
+    ++m_parts;
+    if (words[0] == "usemtl" && words.size() > 1) {
+      m_materials.emplace(words[1]);
+    }
+    if (m_parts * m_materials.size() > kMostLookUps) {
+      refuse("usemtl", std::to_string(m_materials.size()),
+             "materials in " + std::to_string(m_parts) + " parts take too long to read; export fewer");
+    }
+  }
+
   void checkCorners(const std::vector<std::string_view>& words) {
     if (words.size() < 2) {
       refuse(std::string(words[0]), "", "has no corner; write the mesh anew, it may be cut short");
@@ -149,6 +171,9 @@ class ObjCheck {
   std::filesystem::path m_file;
   std::ifstream m_stream;
   std::size_t m_line = 0;
+  PolygonBudget m_polygons;
+  std::uint64_t m_parts = 0;
+  std::set<std::string> m_materials;
   Counts m_counts{};
   Counts m_largest{};
   std::array<std::size_t, 3> m_lineOfLargest{};

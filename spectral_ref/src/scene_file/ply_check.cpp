@@ -14,6 +14,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
+#include "scene_file/polygon_budget.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -186,6 +187,9 @@ class PlyChecker {
     if (property.isIndices && count == 0) {
       refuse(m_place, "0", "has no vertices; mend the mesh");  // Assimp's triangulation ends the program
     }
+    if (property.isIndices && !m_polygons.allows(static_cast<std::uint64_t>(count))) {
+      refuse(m_place, spectral::numberText(count), PolygonBudget::kRemedy);
+    }
     for (double i = 0; i < count; ++i) {
       const double value = readNumber(property.type);
       if (property.isIndices &&
@@ -245,6 +249,7 @@ class PlyChecker {
   std::ifstream m_stream;
   Header m_header;
   std::string m_place;
+  PolygonBudget m_polygons;
 };
 
 }  // namespace
