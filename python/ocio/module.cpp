@@ -43,7 +43,7 @@ sip::Recipe recipeOf(const RecipeText& given) {
 }
 
 ocio::ConfigSource configOf(const ConfigName& name) {
-  return name ? ocio::ConfigSource(ocio::configNamed(*name)) : ocio::ConfigSource::environment();
+  return name ? ocio::ConfigSource(ocio::configNamed(*name), *name) : ocio::ConfigSource::environment();
 }
 
 struct BakeArguments {

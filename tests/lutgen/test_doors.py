@@ -22,6 +22,18 @@ input: {illuminant: D65}
 output: {illuminant: A}
 scene: {kind: smooth}
 """
+CONFIG_OF_SPACES = """ocio_profile_version: 2
+roles: {default: linear, scene_linear: linear, aces_interchange: linear}
+file_rules: [!<Rule> {name: Default, colorspace: default}]
+displays: {screen: [!<View> {name: as is, colorspace: linear}]}
+active_displays: [screen]
+active_views: [as is]
+colorspaces:
+  - !<ColorSpace> {name: linear}
+  - !<ColorSpace> {name: mask, isdata: true}
+  - !<ColorSpace> {name: lost, to_scene_reference: !<FileTransform> {src: lost.cube}}
+  - !<ColorSpace> {name: short, to_scene_reference: !<FileTransform> {src: short.cube}}
+"""
 STAGE = ["stage", "emitter", "led:620:18"]
 
 
@@ -115,6 +127,49 @@ class Outputs(LutgenTest):
             run = lutgen("bake", long + ".yaml", "-o", long + ".cube", folder=self.folder)
             self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
             self.assertLessEqual(len(run.stderr.encode()), 301)
+
+    def test_what_a_command_refuses_is_named_with_its_file(self):
+        def write(name, text):
+            (self.folder / name).write_text(text)
+
+        write("config.ocio", CONFIG_OF_SPACES)
+        write("short.cube", "LUT_3D_SIZE 2\n0 0 0\n")
+        write("zero.csv", "nm,power\n380,0\n780,0\n")
+        write("dark.yaml", RECIPE.replace("illuminant: A", "illuminant: zero.csv"))
+        write("opaque.yaml", RECIPE.replace("illuminant: A", "illuminant: A, filters: [{file: zero.csv}]"))
+        write("comma.yaml", RECIPE.replace("evening", '"a,b"'))
+        chart = "patch,R,G,B\n" + "".join(f"{name},{{0}},{{0}},{{0}}\n" for name in ("white", "grey", "red", "blue"))
+        for name, value in (("black.csv", 0), ("a.csv", 0.3), ("b.csv", 0.4)):
+            write(name, chart.format(value))
+        write("others.csv", "patch,R,G,B\nx,1,1,1\n")
+        write("two.csv", "patch,R,G,B\n0,0,0,0\n1,1,1,1\n")
+        Image.new("RGB", (4, 4)).save(self.folder / "a.png")
+        shell = {"OCIO": str(self.folder / "config.ocio")}
+        for space, says in (("mask", "space 'mask': holds data"), ("lost", "space 'lost': cannot be converted"),
+                            ("short", "space 'short': cannot be converted")):
+            write(f"{space}.yaml", RECIPE + f"space: {space}\n")
+            with self.subTest(space):
+                self.assertFails("bake", f"{space}.yaml", "-o", "a.ctf", environment=shell,
+                                 says=[f"{space}.yaml: ", "config.ocio: ", says])
+        charts = ["--charts", "a.csv", "b.csv", "--json", "a.json"]
+        for arguments, says in (
+            (["bake", "dark.yaml", "-o", "a.ctf"], "dark.yaml: output: power: illuminant"),
+            (["config", "dark.yaml", "-o", "a.ocio"], "dark.yaml: output: power: illuminant"),
+            (["job", "bake", "dark.yaml", "-o", "looks", "--slurm", "job"], "dark.yaml: output: power: illuminant"),
+            (["bake", "opaque.yaml", "-o", "a.ctf"], "opaque.yaml: output: A through power: filters '1'"),
+            (["config", "comma.yaml", "-o", "a.ocio"], "comma.yaml: name 'a,b'"),
+            (["job", "bake", "comma.yaml", "-o", "comma.yaml", "--slurm", "new/job"], "comma.yaml: folder: cannot be made"),
+            (["skin", "estimate", "a.png", "-o", "a.exr", "--illuminant", "zero.csv"], "zero.csv: illuminant 'power'"),
+            (["stage", "match", "--target", "black.csv", *charts], "black.csv: target: holds no light"),
+            (["stage", "match", "--target", "others.csv", *charts], "others.csv: --charts: charts: no patch"),
+            (["stage", "select", "--targets", "zero.csv", "--emitters", "led:600:20", "--json", "a.json"], "zero.csv: power: illuminant"),
+            (["stage", "match", "--target", "A", "--emitters", "zero.csv", "--json", "a.json"], "zero.csv: emitters: give no"),
+            (["stage", "linearity", "two.csv"], "two.csv: drives '2'"),
+        ):
+            with self.subTest(says):
+                self.assertFails(*arguments, says=[says])
+        self.assertFails("bake", *LIGHTS, "-o", "a.ctf", "--tolerance", "-1", code=2,
+                         says=["--tolerance: Value -1 is too small; give a number above 0; see"])
 
     def test_certificates_of_any_depth_and_size_are_refused_at_once(self):
         """Nesting that would overrun the stack, and fields whose number squared is the time that they take."""

@@ -97,7 +97,7 @@ PictureSpace pictureSpaceNamed(const std::string& name, const std::string& field
   } catch (const InputError& first) {
     // OpenColorIO's own config knows more; where it does not, what was said first is better.
     try {
-      return fromWorkingSpace(ocio::findWorkingSpace(name, library, ocio::configNamed(kOwnConfig)));
+      return fromWorkingSpace(ocio::findWorkingSpace(name, library, {ocio::configNamed(kOwnConfig), kOwnConfig}));
     } catch (const InputError&) {
       throw InputError(field, "", "", first.what());
     }

@@ -29,7 +29,7 @@ AppliedTransform fromRecipe(const TransformRequest& request, const spectral::Dat
   AppliedTransform result;
   result.name = request.transform;
   result.isRecipe = true;
-  result.pixels = pictureSpaceNamed(recipe.space, "recipe", library, config);
+  result.pixels = pictureSpaceNamed(recipe.space, request.transform, library, config);
   result.linearSpace = result.pixels->linear;
   const sip::TransformSpec spec = sip::resolve(recipe, library, result.linearSpace);
   note(sip::notesOf(recipe, spec));

@@ -32,7 +32,7 @@ std::vector<farm::TaskValue> looksOf(const std::vector<std::string>& recipes) {
   for (const std::string& text : recipes) {
     const std::filesystem::path file = spectral::pathOf(text);
     const sip::Recipe recipe = sip::readRecipe(file);
-    sip::resolve(recipe, library, ocio::findWorkingSpace(recipe.space, library, config).engine);
+    sip::resolve(recipe, library, ocio::workingSpaceOf(recipe, library, config).engine);
     if (!names.insert(recipe.name).second) {
       throw spectral::InputError(text, "name", recipe.name,
                                  "is another recipe's too; give each look a name of its own");

@@ -9,6 +9,7 @@
 #include "metamer/skin/skin_colours.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
 #include "run.h"
@@ -59,7 +60,8 @@ class Editing {
     m_bytes = 4 * picture.bytes();
     m_from = spaceOf(picture, place, first.input);
     m_capture = captureOf(picture, place);
-    m_colours.emplace(m_library, skinView(m_capture, m_from->linear, m_library));
+    spectral::namingFile(m_capture.illuminant,
+                         [&] { m_colours.emplace(m_library, skinView(m_capture, m_from->linear, m_library)); });
     if (!m_to && isSrgbFormat(formatOf(first.output))) {
       m_to = pictureSpaceNamed("sRGB", m_options.output, m_library, ocio::ConfigSource());
       note({m_options.output + ": written as sRGB, as such files are; --output-space names another"});

@@ -11,6 +11,7 @@
 #include "metamer/skin/skin_network.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "run.h"
@@ -89,7 +90,9 @@ class Estimation {
       beginNetwork();
       return;
     }
-    m_estimator.emplace(m_library, skinView(m_capture, m_space->linear, m_library), threads);
+    spectral::namingFile(m_capture.illuminant, [&] {
+      m_estimator.emplace(m_library, skinView(m_capture, m_space->linear, m_library), threads);
+    });
     const skin::SkinIdentification told = m_estimator->identification();
     if (!told.separatesBloodFromMelanin) {
       note(

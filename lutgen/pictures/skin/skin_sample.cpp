@@ -4,6 +4,7 @@
 #include "apply/picture_clues.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "run.h"
@@ -55,7 +56,8 @@ void sample(const SampleOptions& options) {
     throw InputError("--space", "space", options.space, "is a log; name a linear one: lutgen list spaces");
   }
   const SkinCapture capture = options.capture.orElse(kUsualCapture);
-  const skin::SkinColours colours(library, skinView(capture, space.linear, library));
+  const auto colours = spectral::namingFile(
+      capture.illuminant, [&] { return skin::SkinColours(library, skinView(capture, space.linear, library)); });
   int columns = options.grid.empty() ? 1 : options.grid[0];
   std::vector<skin::SkinParameters> skins = options.grid.empty()
                                                 ? drawnSkins(colours.prior(), options.count, options.seed, columns)

@@ -11,6 +11,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/stage/environment_drive.h"
@@ -148,7 +149,8 @@ void drive(const EnvironmentOptions& options) {
     throw CLI::ValidationError("-o", "or --lights-output is needed");
   }
   spectral::requireWritable(spectral::pathOf(options.lightsOutput));
-  const Stage stage = readStageCharts(options, library);
+  const Stage stage =
+      spectral::namingFile(options.sceneCharts.front(), [&] { return readStageCharts(options, library); });
   EnvironmentPicture environment(spectral::pathOf(options.environment));
   const stage::LatLong layout = environment.layout();
   std::unique_ptr<LightList> lights;

@@ -6,6 +6,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
@@ -208,7 +209,9 @@ MatchAnswer matchCharts(const MatchOptions& options, const std::vector<stage::Pa
 std::vector<MatchAnswer> answersOf(const MatchOptions& options, const spectral::DataLibrary& library) {
   std::vector<MatchAnswer> answers;
   if (!options.charts.empty()) {
-    answers.push_back(matchCharts(options, eotfsOf(options.ramps, options.charts.size()), library));
+    const std::vector<stage::PanelEotf> eotfs = eotfsOf(options.ramps, options.charts.size());
+    answers.push_back(
+        spectral::namingFile(options.targets.front(), [&] { return matchCharts(options, eotfs, library); }));
     describe(options, options.targets.front(), answers.back());
     return answers;
   }
@@ -219,12 +222,14 @@ std::vector<MatchAnswer> answersOf(const MatchOptions& options, const spectral::
   const stage::Fixture fixture = stage::readFixture(options.emitters, library);
   const std::vector<stage::PanelEotf> eotfs = eotfsOf(options.ramps, fixture.names.size());
   for (const std::string& target : options.targets) {
+    const std::string& file = spectral::looksLikeSpectralFile(target) ? target : options.emitters.front();
     const spectral::Spectrum lamp = library.illuminant(target);
     const std::vector<std::string> filters = options.filters.empty() ? std::vector<std::string>{""} : options.filters;
     for (const std::string& filter : filters) {
       const bool isBare = filter.empty() || filter == "none";
-      answers.push_back(
-          matchSpectra(options, fixture, isBare ? lamp : filteredLight(lamp, filter, library), eotfs, library));
+      answers.push_back(spectral::namingFile(file, [&] {
+        return matchSpectra(options, fixture, isBare ? lamp : filteredLight(lamp, filter, library), eotfs, library);
+      }));
       answers.back().filter = isBare ? "" : filter;
       describe(options, target, answers.back());
     }

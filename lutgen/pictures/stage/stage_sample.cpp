@@ -6,6 +6,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
@@ -77,7 +78,7 @@ void sample(const SampleOptions& options) {
 void linearity(const std::string& file, double tolerance, const std::string& output) {
   spectral::requireWritable(spectral::pathOf(output));
   const stage::DriveSeries series = stage::parseDriveSeries(spectral::readTextFile(spectral::pathOf(file)), file);
-  const stage::PanelLinearity judged = stage::judgeLinearity(series);
+  const stage::PanelLinearity judged = spectral::namingFile(file, [&] { return stage::judgeLinearity(series); });
   const bool isLinear = judged.deviation <= tolerance;
   if (!output.empty()) {
     writeJson(spectral::pathOf(output), {{"linear", isLinear},

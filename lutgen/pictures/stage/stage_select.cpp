@@ -5,6 +5,7 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
@@ -169,6 +170,8 @@ void select(const SelectOptions& options) {
     for (const std::string& name : options.observers) {
       const spectral::Observer observer = library.observer(name);
       const stage::ObserverCurves curves = observer.onDomain();
+      const Eigen::Matrix3d xyzFromResponse =
+          spectral::namingFile(target.name, [&] { return xyzFromResponseUnder(target.direct, observer, library); });
       stage::MatchSystem system;
       if (method == stage::MatchMethod::Spectral) {
         system = stage::spectralSystem(fixture.columns, target.power);
@@ -182,10 +185,7 @@ void select(const SelectOptions& options) {
               skinWeight);
         }
       }
-      cases.push_back({{target.name + ", " + observer.name, std::move(system)},
-                       &target,
-                       curves,
-                       xyzFromResponseUnder(target.direct, observer, library)});
+      cases.push_back({{target.name + ", " + observer.name, std::move(system)}, &target, curves, xyzFromResponse});
     }
   }
   std::vector<stage::SelectionCase> selectionCases;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "metamer/ocio/stage_config.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "stage/chart_figure.h"
@@ -77,8 +78,9 @@ void solve(const SolveOptions& options) {
   if (!options.priority.empty()) {
     description.skinPriority = stage::skinWeightFrom(options.priority);
   }
-  const stage::StageResult result =
-      stage::solveStage(description, readCapture(description, library, options.checkPictures), options.choices);
+  const stage::StageResult result = spectral::namingFile(description.where, [&] {
+    return stage::solveStage(description, readCapture(description, library, options.checkPictures), options.choices);
+  });
   if (!options.config.empty()) {
     const bool hasSignals = result.capture.eotf && !options.luts.empty();
     spectral::writeWholeFile(

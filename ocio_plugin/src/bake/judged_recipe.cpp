@@ -62,7 +62,7 @@ sip::ErrorProtocol::Options JudgedRecipe::prepare(const sip::Recipe& recipe, con
   std::vector<spectral::SetPixel> pixels;
   inParallel(
       [&] {
-        space = findWorkingSpace(recipe.space, library, m_options.config);
+        space = workingSpaceOf(recipe, library, m_options.config);
         spec = sip::resolve(recipe, library, space->engine);
       },
       [&] {

@@ -83,7 +83,7 @@ std::optional<CertifiedPixels> certifiedPixels(const std::filesystem::path& file
 
 ComparedTransform comparedRecipe(const sip::Recipe& recipe, const spectral::DataLibrary& library,
                                  const ConfigSource& config) {
-  const WorkingSpace working = findWorkingSpace(recipe.space, library, config);
+  const WorkingSpace working = workingSpaceOf(recipe, library, config);
   ComparedTransform result;
   result.kind = "recipe";
   result.name = recipe.name;

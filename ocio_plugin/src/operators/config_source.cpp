@@ -39,7 +39,8 @@ OCIO::ConstConfigRcPtr read(const std::string& name, const std::string& where, c
 }  // namespace
 
 struct ConfigSource::State {
-  std::string environment;
+  std::string name;
+  bool isFromEnvironment = false;
   std::once_flag isOpened;
   OCIO::ConstConfigRcPtr config;
 };
@@ -48,27 +49,30 @@ ConfigSource::ConfigSource() : ConfigSource(OCIO::ConstConfigRcPtr()) {}
 
 ConfigSource::ConfigSource(std::nullptr_t /*none*/) : ConfigSource() {}
 
-ConfigSource::ConfigSource(OCIO::ConstConfigRcPtr config) : m_state(std::make_shared<State>()) {
+ConfigSource::ConfigSource(OCIO::ConstConfigRcPtr config, std::string name) : m_state(std::make_shared<State>()) {
   m_state->config = std::move(config);
-}
-
-ConfigSource::ConfigSource(std::string environment) : m_state(std::make_shared<State>()) {
-  m_state->environment = std::move(environment);
+  m_state->name = std::move(name);
 }
 
 ConfigSource ConfigSource::environment() {
-  return ConfigSource(spectral::environmentValue("OCIO").value_or(""));
+  ConfigSource source(nullptr, spectral::environmentValue("OCIO").value_or(""));
+  source.m_state->isFromEnvironment = true;
+  return source;
 }
 
 OCIO::ConstConfigRcPtr ConfigSource::open() const {
   State& state = *m_state;
-  if (!state.environment.empty()) {
+  if (state.isFromEnvironment && !state.name.empty()) {
     std::call_once(state.isOpened, [&state] {
-      state.config = read(state.environment, "$OCIO", state.environment,
+      state.config = read(state.name, "$OCIO", state.name,
                           "set $OCIO to a config that is there, or name a built-in space (lutgen list spaces)");
     });
   }
   return state.config;
+}
+
+const std::string& ConfigSource::name() const {
+  return m_state->name;
 }
 
 bool isBuiltInConfig(const std::string& name) {

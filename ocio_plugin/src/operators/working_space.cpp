@@ -9,6 +9,7 @@
 #include "metamer/ocio/shaper.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/text.h"
 #include "operators/interchange.h"
@@ -31,12 +32,13 @@ bool keepsGains(const PixelProcessor& toEngine) {
 }
 
 WorkingSpace configSpace(const std::string& name, const OCIO::ConstColorSpaceRcPtr& space,
-                         const spectral::DataLibrary& library, const OCIO::ConstConfigRcPtr& config) {
+                         const spectral::DataLibrary& library, const OCIO::ConstConfigRcPtr& config,
+                         const std::string& configName) {
   if (space->isData()) {
-    throw InputError("config", "space", name, "holds data, not colours; name another space");
+    throw InputError(configName, "space", name, "holds data, not colours; name another space");
   }
   if (!config->hasRole(kInterchangeRole)) {
-    throw InputError("config", "role", kInterchangeRole,
+    throw InputError(configName, "role", kInterchangeRole,
                      "is missing; add it to the config (it names the config's ACES2065-1), or use a built-in space");
   }
   WorkingSpace working;
@@ -46,7 +48,8 @@ WorkingSpace configSpace(const std::string& name, const OCIO::ConstColorSpaceRcP
     working.toEngine = config->getProcessor(space->getName(), kInterchangeRole)->createGroupTransform();
     working.fromEngine = config->getProcessor(kInterchangeRole, space->getName())->createGroupTransform();
   } catch (const OCIO::Exception& error) {
-    throw InputError("config", "space", name, "cannot be converted: " + spectral::colourReason(error.what()));
+    throw InputError(configName, "space", name,
+                     "cannot be converted, name another or mend the config: " + spectral::colourReason(error.what()));
   }
   working.isLinear = keepsGains(PixelProcessor(working.toEngine));
   working.isLog = !working.isLinear && spectral::lowerCase(space->getEncoding()) == "log";
@@ -90,7 +93,7 @@ WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibra
   const OCIO::ConstConfigRcPtr config = source.open();
   if (config) {
     if (const auto space = config->getColorSpace(name.c_str())) {
-      return configSpace(name, space, library, config);
+      return configSpace(name, space, library, config, source.name());
     }
     for (int k = 0; k < config->getNumColorSpaces(); ++k) {
       known.emplace_back(config->getColorSpaceNameByIndex(k));
@@ -99,6 +102,11 @@ WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibra
   throw InputError("", "space", name,
                    spectral::unknownNameRemedy(name, known, "lutgen list spaces") +
                        (config ? "" : "; for a space of a config, set $OCIO"));
+}
+
+WorkingSpace workingSpaceOf(const sip::Recipe& recipe, const spectral::DataLibrary& library,
+                            const ConfigSource& source) {
+  return spectral::namingFile(recipe.where, [&] { return findWorkingSpace(recipe.space, library, source); });
 }
 
 }  // namespace metamer::ocio

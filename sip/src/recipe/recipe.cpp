@@ -10,12 +10,14 @@
 
 #include "metamer/sip/pairs.h"
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/near_names.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 #include "metamer/spectral/yaml_section.h"
 #include "scenes/measured_surfaces.h"
+#include "transform/sides.h"
 
 namespace metamer::sip {
 namespace {
@@ -305,6 +307,11 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
       spec.scene.skins = modelSkins(library);
       break;
   }
+  // What is wrong with the two sides is known where the recipe's file is known.
+  for (const auto& [side, pipeline] : {std::pair("input", &spec.input), std::pair("output", &spec.output)}) {
+    lookUp(recipe, side, [&, given = pipeline] { return prepare(*given, spec.training, spec.standardObserver); });
+  }
+  spectral::namingFile(recipe.where, [&] { return prepareSides(spec); });
   return spec;
 }
 

@@ -30,7 +30,7 @@ void refuseCollinear(const Pipeline& pipeline, const char* field) {
   }
   const Eigen::Vector3d sizes = curves.jacobiSvd().singularValues();
   if (!(sizes[2] > kCollinear * sizes[0])) {
-    throw InputError("recipe", field, pipeline.observer.name,
+    throw InputError("", field, pipeline.observer.name,
                      "its three channels are collinear: one is a mixture of the others, so it sees no colours; use the "
                      "camera's own three curves");
   }
@@ -40,7 +40,7 @@ void refuseCollinear(const Pipeline& pipeline, const char* field) {
 
 Sides prepareSides(const TransformSpec& spec) {
   if (!(spec.adaptation >= 0.0 && spec.adaptation <= 1.0)) {
-    throw InputError("recipe", "adaptation", std::to_string(spec.adaptation), "give a number from 0 to 1");
+    throw InputError("", "adaptation", std::to_string(spec.adaptation), "give a number from 0 to 1");
   }
   Sides sides;
   sides.input = prepare(spec.input, spec.training, spec.standardObserver);

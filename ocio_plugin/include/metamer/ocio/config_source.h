@@ -18,8 +18,10 @@ class ConfigSource {
  public:
   /// No config.
   ConfigSource();
-  ConfigSource(std::nullptr_t);                 // NOLINT(google-explicit-constructor): no config
-  ConfigSource(OCIO::ConstConfigRcPtr config);  // NOLINT(google-explicit-constructor): one that is open already
+  ConfigSource(std::nullptr_t);  // NOLINT(google-explicit-constructor): no config
+  /// One that is open already. @param name  its file or name, for messages
+  ConfigSource(OCIO::ConstConfigRcPtr config,  // NOLINT(google-explicit-constructor)
+               std::string name = "config");
   /// The config that $OCIO names now: a file, an archive, or a name of OCIO's own (ocio://default). None where it is
   /// not set.
   static ConfigSource environment();
@@ -27,11 +29,11 @@ class ConfigSource {
   /// Null where there is none.
   /// @throws spectral::InputError where $OCIO cannot be read
   OCIO::ConstConfigRcPtr open() const;
+  /// The config's file or name, for messages.
+  const std::string& name() const;
 
  private:
   struct State;
-  explicit ConfigSource(std::string environment);
-
   std::shared_ptr<State> m_state;
 };
 

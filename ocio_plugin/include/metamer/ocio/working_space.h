@@ -7,6 +7,7 @@
 #include <string>
 
 #include "metamer/ocio/config_source.h"
+#include "metamer/sip/recipe.h"
 #include "metamer/spectral/data_library.h"
 
 namespace metamer::ocio {
@@ -34,5 +35,8 @@ struct WorkingSpace {
 ///         aces_interchange; a space that holds data
 WorkingSpace findWorkingSpace(const std::string& name, const spectral::DataLibrary& library,
                               const ConfigSource& source);
+/// A recipe's. @throws spectral::InputError as findWorkingSpace, with the recipe's file
+WorkingSpace workingSpaceOf(const sip::Recipe& recipe, const spectral::DataLibrary& library,
+                            const ConfigSource& source);
 
 }  // namespace metamer::ocio
