@@ -43,6 +43,7 @@ struct RenderArguments {
   std::string range;
   std::string guiding = "off";
   std::string restir = "off";
+  std::string lightRule = "place";
   std::uint32_t seed = 0;
   int threads = 0;
   bool resume = false;
@@ -178,6 +179,7 @@ class RenderJob {
     options.restir = m_arguments.restir == "hero"    ? Restir::Hero
                      : m_arguments.restir == "lanes" ? Restir::Lanes
                                                      : Restir::Off;
+    options.lightRule = m_arguments.lightRule == "power" ? LightRule::Power : LightRule::Place;
     m_renderer = std::make_unique<Renderer>(m_scene, options, m_range[0], m_arguments.threads);
     std::error_code none;
     if (m_arguments.resume && std::filesystem::exists(m_checkpoint, none)) {
@@ -267,6 +269,7 @@ class RenderJob {
             {"wavelengths", std::to_string(m_scene.integrator.wavelengths)},
             {"guiding", m_arguments.guiding},
             {"restir", m_arguments.restir},
+            {"lights", m_arguments.lightRule},
             {"version", METAMER_VERSION},
             {"build", METAMER_BUILD_IDENTITY}};
   }
@@ -321,6 +324,10 @@ void addRender(CLI::App& application) {
       ->check(CLI::IsMember({"on", "off"}));
   command->add_option("--restir", arguments->restir, "Resample direct light, by the hero wavelength or all lanes")
       ->check(CLI::IsMember({"off", "hero", "lanes"}));
+  command
+      ->add_option("--lights", arguments->lightRule,
+                   "Choose lights by what they may give a point, or by power alone, to compare with")
+      ->check(CLI::IsMember({"place", "power"}));
   command->add_option("--seed", arguments->seed, "Another seed, other noise; 0 by default");
   command->add_option("--threads", arguments->threads, "Threads; all by default. Changes no bit of the picture")
       ->check(CLI::Range(1, 4096));

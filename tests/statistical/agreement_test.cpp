@@ -143,6 +143,7 @@ TEST_P(AgreementTest, MeansAndVariances) {
   } others[] = {{"guided", {0, true, Restir::Off}},
                 {"hero", {0, false, Restir::Hero}},
                 {"lanes", {0, false, Restir::Lanes}},
+                {"lights by power", {0, false, Restir::Off, LightRule::Power}},
                 {"guided lanes", {0, true, Restir::Lanes}}};
   const int tests = static_cast<int>(std::size(others) * areas.size());
   for (const auto& other : others) {
@@ -172,6 +173,8 @@ INSTANTIATE_TEST_SUITE_P(
         AgreementCase{"dispersive ball",
                       manyLamps("dielectric: {index: {cauchy: [1.5, 0.02]}}"),
                       {{1, 1, 6, 4}, {15, 4, 4, 4}, {0, 0, 24, 16}}},
+        AgreementCase{
+            "rough glass ball", manyLamps("dielectric: {index: 1.5, roughness: 0.3}"), {{15, 4, 4, 4}, {0, 0, 24, 16}}},
         AgreementCase{"lamps nearby", nearLamps(), {{2, 6, 2, 4}, {9, 6, 6, 4}, {20, 4, 4, 8}, {0, 0, 24, 16}}},
         AgreementCase{"two rooms", twoRooms(), {{2, 4, 8, 8}, {19, 4, 4, 8}, {0, 0, 24, 16}}}));
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light cuts against the probabilities that they state, and reservoirs against the integrals that they stand for.
+// Light cuts and choices by place against the probabilities that they state, and reservoirs against the integrals that
+// they stand for.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
 
 #include "integrator/reservoir.h"
+#include "lights/light_choice.h"
 #include "lights/light_cuts.h"
 #include "materials/material_table.h"
 #include "spectral_ref/scene_fixture.h"
@@ -139,6 +143,71 @@ TEST_F(ResamplingTest, EveryNodeIsImportantWhereItsLightsAre) {
   }
 }
 
+TEST_F(ResamplingTest, APointDrawsLightsAsOftenAsItStates) {
+  const LightChoice choice(lights, &tree);
+  const std::array<LitPoint, 4> points = {{{Vec3(0.2F, 0.1F, 0.0F), Vec3::UnitZ(), false},
+                                           {Vec3(1.0F, 0.0F, 1.2F), Vec3(0.6F, 0.0F, -0.8F), false},
+                                           {Vec3(-2.0F, 1.0F, 1.0F), Vec3::UnitY(), true},
+                                           // Below everything and turned away from it: the sky's lower half is left.
+                                           {Vec3(0.0F, 0.0F, -9.0F), -Vec3::UnitZ(), false}}};
+  constexpr int kDraws = 200000;
+  for (const LitPoint& point : points) {
+    std::vector<double> counts(bounds.size() + 1);
+    std::vector<double> expected(bounds.size() + 1);
+    for (int i = 0; i < kDraws; ++i) {
+      const LightChoice::Choice drawn = choice.choose(point, bits());
+      if (!(drawn.probability > 0.0F)) {
+        counts.back() += 1;
+        continue;
+      }
+      counts[drawn.entry] += 1;
+      ASSERT_EQ(drawn.probability, choice.probability(point, drawn.entry));
+    }
+    expected.back() = kDraws;
+    for (std::uint32_t light = 0; light < bounds.size(); ++light) {
+      const float probability = choice.probability(point, light);
+      ASSERT_GT(probability, 0.0F) << light;
+      expected[light] = kDraws * static_cast<double>(probability);
+      expected.back() -= expected[light];
+    }
+    EXPECT_GT(expected.back(), -1e-5 * kDraws);
+    expected.back() = std::max(expected.back(), 0.0);
+    EXPECT_GT(chiSquareProbability(counts, expected), kSignificance) << point.place.transpose();
+  }
+}
+
+TEST_F(ResamplingTest, BranchesLeadToEveryLightThatAPointSees) {
+  const LightBranches branches(tree);
+  int seenFromBehind = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const auto light = static_cast<std::uint32_t>(next() * static_cast<float>(bounds.size()));
+    const Vec3 place{6.0F * next() - 3.0F, 6.0F * next() - 3.0F, 2.0F * next()};
+    const Vec3 normal = Vec3{next() - 0.5F, next() - 0.5F, next() - 0.5F}.normalized();
+    const LightSample seen = lights.located({light, next(), next()}, place);
+    const float cosine = seen.direction.dot(normal);
+    if (!(seen.pdf > 0.0F) || std::abs(cosine) < 1e-4F) {
+      continue;
+    }
+    const std::uint32_t position = tree.positionOf(light);
+    ASSERT_GT(branches.leafOf({place, normal, true}, position).probability, 0.0F) << light;
+    if (cosine > 0.0F) {
+      ASSERT_GT(branches.leafOf({place, normal, false}, position).probability, 0.0F) << light;
+    } else {
+      ++seenFromBehind;
+    }
+  }
+  EXPECT_GT(seenFromBehind, 1000);
+}
+
+TEST_F(ResamplingTest, ALampThatIsCloseIsDrawnMoreThanItsPowerSays) {
+  const LightChoice byPlace(lights, &tree);
+  const LightChoice byPower(lights, nullptr);
+  constexpr std::uint32_t kLamp = 10;  // one of the rectangles
+  const LightBounds& lamp = bounds[kLamp];
+  const LitPoint point{0.5F * (lamp.least + lamp.most) + 0.1F * lamp.axis, -lamp.axis, false};
+  EXPECT_GT(byPlace.probability(point, kLamp), 10.0F * byPower.probability(point, kLamp));
+}
+
 /// Sums of target times contribution over many chains, against the integral of the target by light sampling: the
 /// expectation of f W for f = p-hat, and for f = p-hat on the lights of even number alone.
 TEST_F(ResamplingTest, ReservoirsStandForTheirIntegral) {
@@ -188,9 +257,37 @@ TEST_F(ResamplingTest, ReservoirsStandForTheirIntegral) {
   }
 }
 
+TEST(LightTreeTest, LightsThatShareALeafAreToldApartByIntensity) {
+  // More lights than leaves, in a row; every third one shines three times as much.
+  constexpr std::uint32_t kCount = 3 * LightBranches::kMostLeaves / 2;
+  std::vector<LightBounds> row(kCount);
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    row[i].least = Vec3(static_cast<float>(i), 0.0F, 1.0F);
+    row[i].most = row[i].least + Vec3(0.5F, 0.5F, 0.0F);
+    row[i].axis = -Vec3::UnitZ();
+    row[i].intensity = i % 3 == 0 ? 3.0F : 1.0F;
+  }
+  const LightTree tree(row);
+  const LightBranches branches(tree);
+  const LitPoint point{Vec3(5000.0F, 0.0F, 0.0F), Vec3::UnitZ(), false};
+  double sum = 0;
+  std::uint32_t leaves = 0;
+  for (std::uint32_t position = 0; position < kCount;) {
+    const LightBranches::Leaf leaf = branches.leafOf(point, position);
+    ASSERT_EQ(leaf.begin, position);
+    sum += static_cast<double>(leaf.probability);
+    position = leaf.end;
+    ++leaves;
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-4);
+  EXPECT_GT(leaves, kCount / 4);
+  EXPECT_LE(leaves, 2 * LightBranches::kMostLeaves);
+}
+
 TEST(LightTreeTest, LightsThatAllShineNothing) {
   std::vector<LightBounds> dark(3);
   const LightTree tree(dark);
+  EXPECT_EQ(LightBranches(tree).descend({}, 0.5).probability, 0.0F);
   LightCuts cuts(tree, 1);
   cuts.build(0, {{Vec3::Zero(), Vec3::UnitZ()}});
   for (const std::uint32_t number : {0U, 1U << 31U, 0xffffffffU}) {

@@ -38,7 +38,7 @@ class FilmSensor {
     }
     ExactSum* sums = film.pixel(pixel);
     for (int c = 0; c < 3; ++c) {
-      const auto value = static_cast<double>(response[c]);
+      const ExactSum value = ExactSum::of(static_cast<double>(response[c]));
       sums[Film::kColour + static_cast<std::size_t>(c)].add(value);
       if ((replicate & 1U) != 0) {
         sums[Film::kHalf + static_cast<std::size_t>(c)].add(value);

@@ -70,7 +70,7 @@ class PathIntegrator {
         }
       }
       if (!isResampled && !bsdf.isDelta() && !m_prepared.lights.empty()) {
-        addDirectLight(hit, frame, out, bsdf, random.light(m_prepared.lights), path, lanes);
+        addDirectLight(hit, frame, out, bsdf, random, path, lanes);
       }
       if (!scatter(hit, frame, out, bsdf, random, path, ray)) {
         break;
@@ -107,7 +107,7 @@ class PathIntegrator {
     float heroSumBefore = static_cast<float>(C);    ///< the same before the last direction was drawn
     float lastPdf = 0;                              ///< of that direction, by the hero
     const ReservoirDomain<C>* resampled = nullptr;  ///< where its next-event estimation was resampled
-    Vec3 lastPosition = Vec3::Zero();
+    LitPoint last;
     bool lastIsDelta = true;  ///< next-event estimation could not have found what it hits
   };
 
@@ -129,8 +129,9 @@ class PathIntegrator {
         return resampling.sampler.bsdfWeight(*path.resampled, entry, density(), path.lastPdf);
       }
     }
-    const float others =
-        path.lastIsDelta ? 0.0F : m_prepared.lights.probability(entry) * density() / path.lastPdf * path.heroSumBefore;
+    const float others = path.lastIsDelta ? 0.0F
+                                          : m_prepared.lightChoice.probability(path.last, entry) * density() /
+                                                path.lastPdf * path.heroSumBefore;
     return static_cast<float>(C) / (path.heroSum + others);
   }
 
@@ -141,7 +142,7 @@ class PathIntegrator {
       return;
     }
     const LightTable& lights = m_prepared.lights;
-    const auto density = [&] { return lights.locatedPdf(hit, path.lastPosition, ray.direction); };
+    const auto density = [&] { return lights.locatedPdf(hit, path.last.place, ray.direction); };
     const float weight = weightOfFound(path, lights.entryOf(hit), density, resampling);
     path.radiance +=
         path.throughput * lights.radiance(hit.emitter, lights.elementOf(hit), m_prepared.spectra, wavelengths) * weight;
@@ -163,10 +164,16 @@ class PathIntegrator {
   }
 
   template <typename Bsdf>
-  void addDirectLight(const Hit& hit, const Frame& frame, const Vec3& out, const Bsdf& bsdf, const LightPoint& point,
+  void addDirectLight(const Hit& hit, const Frame& frame, const Vec3& out, const Bsdf& bsdf, const PathRandom& random,
                       Path& path, const WavelengthSet<C>& wavelengths) const {
     const LightTable& lights = m_prepared.lights;
-    const LightSample light = lights.sample(point, hit.position);
+    const LightChoice::Choice choice = m_prepared.lightChoice.choose(litPoint(hit, bsdf), random.light());
+    if (!(choice.probability > 0.0F)) {
+      return;
+    }
+    const Eigen::Vector2f place = random.onLight();
+    LightSample light = lights.located({choice.entry, place.x(), place.y()}, hit.position);
+    light.pdf *= choice.probability;
     if (!(light.pdf > 0.0F)) {
       return;
     }
@@ -212,6 +219,11 @@ class PathIntegrator {
     return m_settings.maxDepth > 2 || resampling.sampler.needsBsdf(reservoir.domain);
   }
 
+  template <typename Bsdf>
+  static LitPoint litPoint(const Hit& hit, const Bsdf& bsdf) {
+    return {hit.position, hit.normal, bsdf.isTwoSided()};
+  }
+
   /// Draws the next direction; false where the path ends.
   template <typename Bsdf>
   static bool scatter(const Hit& hit, const Frame& frame, const Vec3& out, const Bsdf& bsdf, const PathRandom& random,
@@ -229,7 +241,7 @@ class PathIntegrator {
       path.heroSum = path.heroes.sum();
     }
     path.lastPdf = pdf;
-    path.lastPosition = hit.position;
+    path.last = litPoint(hit, bsdf);
     path.lastIsDelta = sample.isDelta;
     ray.direction = frame.toWorld(sample.direction);
     ray.origin = offPoint(hit.position, hit.normal, ray.direction);

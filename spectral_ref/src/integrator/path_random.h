@@ -13,7 +13,8 @@ namespace metamer::spectral_ref {
 /// Random numbers of a path by use. Set 0 serves the camera and the first vertex; vertex n > 0 has set n.
 class PathRandom {
  public:
-  explicit PathRandom(const Sampler& sampler) : m_sampler(sampler), m_set(sampler.set(0)) {}
+  /// @param first  seeds of the sampler's set 0
+  PathRandom(const Sampler& sampler, const Sampler::Seeds& first) : m_sampler(sampler), m_set(sampler.set(first)) {}
 
   Eigen::Vector2f pixel() const { return {m_set[0], m_set[1]}; }
   float wavelength() const { return m_set[2]; }
@@ -27,9 +28,8 @@ class PathRandom {
       m_offset = 0;
     }
   }
-  LightPoint light(const LightTable& lights) const {
-    return lights.choose(m_set.bits[m_offset + 2], m_set[m_offset], m_set[m_offset + 1]);
-  }
+  std::uint32_t light() const { return m_set.bits[m_offset + 2]; }
+  Eigen::Vector2f onLight() const { return {m_set[m_offset], m_set[m_offset + 1]}; }
   Eigen::Vector2f direction() const { return {m_set[m_offset + 3], m_set[m_offset + 4]}; }
   /// Chooses among the candidates of resampling, in place of light().
   float candidate() const { return m_set[m_offset + 2]; }

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "geometry/camera.h"
 #include "geometry/embree_scene.h"
+#include "lights/light_choice.h"
 #include "lights/light_table.h"
+#include "lights/light_tree.h"
 #include "materials/material_table.h"
+#include "metamer/spectral_ref/renderer.h"
 #include "metamer/spectral_ref/scene.h"
 #include "wavelengths/lanes.h"
 
@@ -12,12 +17,17 @@ namespace metamer::spectral_ref {
 
 /// A scene made ready to trace: flat tables, built once, read by all threads.
 struct PreparedScene {
-  explicit PreparedScene(const Scene& description)
+  PreparedScene(const Scene& description, const RenderOptions& options)
       : scene(description),
         shapes(description),
         spectra(description),
         materials(description),
         lights(description, shapes),
+        isChosenByPlace(options.lightRule == LightRule::Place && LightChoice::isWorthwhile(lights)),
+        tree(isChosenByPlace || (options.restir != Restir::Off && !lights.empty())
+                 ? std::make_unique<LightTree>(lights.bounds(description))
+                 : nullptr),
+        lightChoice(lights, isChosenByPlace ? tree.get() : nullptr),
         camera(description.camera, description.film) {}
 
   const Scene& scene;
@@ -25,6 +35,9 @@ struct PreparedScene {
   SpectrumTables spectra;
   MaterialTable materials;
   LightTable lights;
+  bool isChosenByPlace;
+  std::unique_ptr<const LightTree> tree;  ///< null where neither light choice nor resampling needs one
+  LightChoice lightChoice;
   Camera camera;
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMostSamplesAPass = 4096;
 /// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
-constexpr std::uint64_t kStateVersion = 0x6d65746100000004U;
+constexpr std::uint64_t kStateVersion = 0x6d65746100000005U;
 
 std::vector<Tile> tilesOf(int width, int height) {
   std::vector<Tile> tiles;
@@ -54,7 +54,7 @@ Replicates replicatesFor(const RenderOptions& options) {
 struct Renderer::State {
   State(const Scene& scene, const RenderOptions& renderOptions, std::uint64_t firstSample, int threads)
       : options(renderOptions),
-        prepared(scene),
+        prepared(scene, renderOptions),
         sensor(scene.film),
         film(FilmFormat::of(scene.film, replicatesFor(options))),
         tiles(tilesOf(scene.film.width, scene.film.height)),
@@ -177,6 +177,7 @@ void Renderer::writeState(const ByteSink& sink) const {
   writer.put(m_state->options.seed);
   writer.put(m_state->options.guiding);
   writer.put(m_state->options.restir);
+  writer.put(m_state->options.lightRule);
   writer.put(m_state->first);
   writer.put(m_state->cursor);
   writer.put(m_state->film.refused);
@@ -201,6 +202,7 @@ void Renderer::restore(const ByteSource& state, const std::string& where) {
   options.seed = reader.get<std::uint32_t>();
   options.guiding = reader.get<bool>();
   options.restir = reader.get<Restir>();
+  options.lightRule = reader.get<LightRule>();
   if (!(options == m_state->options)) {
     throw other("seed, guiding or restir");
   }

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrator/sampler.h"
 
+#include <bit>
 #include <cstddef>
 
 namespace metamer::spectral_ref {
 namespace {
 
-constexpr std::uint32_t reversed(std::uint32_t x) {
+// Dimensions that are worked on at once: the functions below take one number or so many.
+#ifdef __GNUC__
+using Several = std::uint32_t __attribute__((vector_size(16)));
+#else
+using Several = std::uint32_t;
+#endif
+
+template <typename Bits>
+constexpr Bits reversed(Bits x) {
   x = ((x >> 1U) & 0x55555555U) | ((x & 0x55555555U) << 1U);
   x = ((x >> 2U) & 0x33333333U) | ((x & 0x33333333U) << 2U);
   x = ((x >> 4U) & 0x0f0f0f0fU) | ((x & 0x0f0f0f0fU) << 4U);
@@ -16,7 +25,8 @@ constexpr std::uint32_t reversed(std::uint32_t x) {
 
 /// Owen scrambling of a bit-reversed number: each bit is flipped by a hash of those below it (Laine and Karras 2011,
 /// with the constants of Vegdahl 2021).
-constexpr std::uint32_t scrambledReversed(std::uint32_t x, std::uint32_t seed) {
+template <typename Bits>
+constexpr Bits scrambledReversed(Bits x, Bits seed) {
   x ^= x * 0x3d20adeaU;
   x += seed;
   x *= (seed >> 16U) | 1U;
@@ -71,6 +81,30 @@ constexpr Directions makeDirections() {
 }
 constexpr Directions kDirections = makeDirections();
 
+/// [digit of the index, the lowest first][its value][dimension]: points are sums over digits, four bits at a time.
+constexpr unsigned kDigitBits = 4;
+constexpr unsigned kDigitValues = 1U << kDigitBits;
+using Digits = std::array<std::array<std::array<std::uint32_t, Sampler::kSetSize>, kDigitValues>, kBits / kDigitBits>;
+
+constexpr Digits makeDigits() {
+  Digits digits{};
+  for (unsigned digit = 0; digit < kBits / kDigitBits; ++digit) {
+    for (unsigned value = 0; value < kDigitValues; ++value) {
+      for (unsigned bit = 0; bit < kDigitBits; ++bit) {
+        for (std::size_t d = 0; d < Sampler::kSetSize && ((value >> bit) & 1U) != 0; ++d) {
+          digits[digit][value][d] ^= kDirections[digit * kDigitBits + bit][d];
+        }
+      }
+    }
+  }
+  return digits;
+}
+alignas(32) constexpr Digits kDigits = makeDigits();
+
+std::uint32_t dimensionSeed(std::uint32_t seed, std::size_t dimension) {
+  return hash32(seed + static_cast<std::uint32_t>(dimension) * 0x9e3779b9U);
+}
+
 /// The sets are padded: an Owen-shuffled index breaks the correlation between them and keeps the stratification.
 /// Only within blocks of 2^16 points: a permutation still, and an index of few bits stays one.
 std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
@@ -91,7 +125,7 @@ Sampler::Candidates Sampler::candidates(std::uint32_t number, unsigned log2Count
     }
   }
   for (std::size_t d = 0; d < result.m_seeds.size(); ++d) {
-    result.m_seeds[d] = hash32(seed + static_cast<std::uint32_t>(d) * 0x9e3779b9U);
+    result.m_seeds[d] = dimensionSeed(seed, d);
   }
   return result;
 }
@@ -110,21 +144,26 @@ std::array<std::uint32_t, 3> Sampler::Candidates::point(std::uint32_t candidate)
   return bits;
 }
 
-Sampler::Set Sampler::set(std::uint32_t number) const {
-  const std::uint32_t seed = hash32(m_sequence, number);
-  std::uint32_t index = shuffled(m_index, seed);
-  std::array<std::uint32_t, kSetSize> bits{};
-  for (unsigned bit = 0; index != 0; ++bit, index >>= 1U) {
-    const std::uint32_t mask = 0U - (index & 1U);
-    for (std::size_t d = 0; d < kSetSize; ++d) {
-      bits[d] ^= kDirections[bit][d] & mask;
+Sampler::Seeds::Seeds(std::uint32_t sequence, std::uint32_t number) : index(hash32(sequence, number)), dimensions{} {
+  for (std::size_t d = 0; d < kSetSize; ++d) {
+    dimensions[d] = dimensionSeed(index, d);
+  }
+}
+
+Sampler::Set Sampler::set(const Seeds& seeds) const {
+  std::array<Several, kSetSize * sizeof(std::uint32_t) / sizeof(Several)> bits{};
+  std::uint32_t index = shuffled(m_index, seeds.index);
+  for (std::size_t digit = 0; index != 0; ++digit, index >>= kDigitBits) {
+    const auto point = std::bit_cast<decltype(bits)>(kDigits[digit][index % kDigitValues]);
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+      bits[i] ^= point[i];
     }
   }
-  for (std::size_t d = 0; d < kSetSize; ++d) {
-    const auto dimensionSeed = hash32(seed + static_cast<std::uint32_t>(d) * 0x9e3779b9U);
-    bits[d] = reversed(scrambledReversed(bits[d], dimensionSeed));
+  const auto dimensions = std::bit_cast<decltype(bits)>(seeds.dimensions);
+  for (std::size_t i = 0; i < bits.size(); ++i) {
+    bits[i] = reversed(scrambledReversed(bits[i], dimensions[i]));
   }
-  return {bits};
+  return std::bit_cast<Set>(bits);
 }
 
 }  // namespace metamer::spectral_ref

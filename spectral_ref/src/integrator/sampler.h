@@ -39,7 +39,16 @@ class Sampler {
   /// @param index     of the sample within the sequence
   Sampler(std::uint32_t sequence, std::uint32_t index) : m_sequence(sequence), m_index(index) {}
 
-  Set set(std::uint32_t number) const;
+  /// What all points of a set have in common, whatever their index.
+  struct Seeds {
+    std::uint32_t index;  ///< of the shuffle
+    std::array<std::uint32_t, kSetSize> dimensions;
+    Seeds(std::uint32_t sequence, std::uint32_t number);
+  };
+
+  Set set(std::uint32_t number) const { return set(Seeds(m_sequence, number)); }
+  /// The same with seeds that have been worked out once for all points.
+  Set set(const Seeds& seeds) const;
 
   /// Points of three dimensions for several candidates a path: those of one path are stratified against each other, and
   /// all of a sequence's are.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -40,7 +41,7 @@ class LaneTracer : public TileTracer {
           continue;
         }
         // Random numbers of no replicate of the film: it does not depend on what was learnt from them.
-        PathStart<C> start = startOf(x, y, kReplicates, 0);
+        PathStart<C> start = startOf(x, y, sequenceFor(pixelOf(x, y), kReplicates), 0);
         Lanes<C> worth = m_integrator.radiance(start.ray, start.wavelengths, start.random, NoResampling());
         for (int k = 0; k < C; ++k) {
           worth[k] *=
@@ -53,15 +54,25 @@ class LaneTracer : public TileTracer {
   }
 
   void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, bool isKept) override {
+    const Replicates& replicates = m_context.film.format().replicates;
+    std::vector<Place> places;
+    for (std::uint64_t sample = begin; sample < end; ++sample) {
+      places.push_back({replicates.of(sample), static_cast<std::uint32_t>(replicates.index(sample))});
+    }
     for (int y = tile.y0; y < tile.y1; ++y) {
       for (int x = tile.x0; x < tile.x1; ++x) {
+        const std::size_t pixel = pixelOf(x, y);
+        std::array<std::optional<Sequence>, kReplicates> sequences;
         for (std::uint64_t sample = begin; sample < end; ++sample) {
-          PathStart<C> start = startOf(x, y, sample);
+          const Place& place = places[sample - begin];
+          std::optional<Sequence>& sequence = sequences[place.replicate];
+          if (!sequence) {
+            sequence = sequenceFor(pixel, place.replicate);
+          }
+          PathStart<C> start = startOf(x, y, *sequence, place.index);
           const Lanes<C> radiance = radianceOf(x, y, sample, start);
           if (isKept) {
-            m_context.sensor.template add<C>(m_context.film, pixelOf(x, y),
-                                             m_context.film.format().replicates.of(sample), start.wavelengths,
-                                             radiance);
+            m_context.sensor.template add<C>(m_context.film, pixel, place.replicate, start.wavelengths, radiance);
           }
         }
       }
@@ -78,19 +89,28 @@ class LaneTracer : public TileTracer {
            static_cast<std::size_t>(x);
   }
 
-  PathStart<C> startOf(int x, int y, std::uint64_t sample) const {
-    const Replicates& replicates = m_context.film.format().replicates;
-    return startOf(x, y, replicates.of(sample), replicates.index(sample));
-  }
-
   const TracerContext m_context;
   const PathIntegrator<C, kDispersive> m_integrator;
 
  private:
-  PathStart<C> startOf(int x, int y, std::size_t replicate, std::uint64_t index) const {
-    const std::size_t pixel = pixelOf(x, y);
-    const PathRandom random(
-        Sampler(sequenceOf(m_context.options.seed, pixel, replicate), static_cast<std::uint32_t>(index)));
+  /// Where a sample stands among those of its pixel.
+  struct Place {
+    std::size_t replicate;
+    std::uint32_t index;
+  };
+  /// Random numbers of a pixel's replicate, with what they begin with worked out once.
+  struct Sequence {
+    explicit Sequence(std::uint32_t name) : number(name), first(name, 0) {}
+    std::uint32_t number;
+    Sampler::Seeds first;
+  };
+
+  Sequence sequenceFor(std::size_t pixel, std::size_t replicate) const {
+    return Sequence(sequenceOf(m_context.options.seed, pixel, replicate));
+  }
+
+  PathStart<C> startOf(int x, int y, const Sequence& sequence, std::uint32_t index) const {
+    const PathRandom random(Sampler(sequence.number, index), sequence.first);
     const Eigen::Vector2f place = m_context.prepared.camera.filtered(x, y, random.pixel());
     return {random, wavelengthsOf(x, y, random.wavelength()), m_context.prepared.camera.ray(place.x(), place.y())};
   }
@@ -118,10 +138,9 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
  public:
   explicit ReservoirTracer(const TracerContext& context)
       : LaneTracer<C, kDispersive>(context),
-        m_tree(context.prepared.lights.bounds(context.prepared.scene)),
         m_blockSide(blockSideFor(context.film.format())),
         m_blocksAcross(blocksAlong(context.film.format().width, m_blockSide)),
-        m_cuts(m_tree, blocks(context.film.format(), m_blockSide)),
+        m_cuts(*context.prepared.tree, blocks(context.film.format(), m_blockSide)),
         m_sampler(context.prepared.lights, context.prepared.spectra, m_cuts) {
     for (std::vector<Reservoir<C>>& progression : m_reservoirs) {
       progression.resize(context.film.format().pixels());
@@ -273,7 +292,6 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
     return own;
   }
 
-  LightTree m_tree;
   int m_blockSide;  ///< pixels
   int m_blocksAcross;
   LightCuts m_cuts;

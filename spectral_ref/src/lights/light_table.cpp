@@ -33,6 +33,8 @@ void LightTable::collect(const Scene& scene, const EmbreeScene& shapes) {
     static_cast<void>(number);
     if constexpr (std::is_same_v<Kind, EnvironmentEmitter>) {
       m_environment = index;
+    } else {
+      m_nearCount += elements;
     }
     m_emitters.push_back({kind, glow, static_cast<std::uint32_t>(m_emitterOfEntry.size())});
     m_emitterOfEntry.insert(m_emitterOfEntry.end(), elements, index);

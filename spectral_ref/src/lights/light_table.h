@@ -33,6 +33,8 @@ class LightTable {
 
   bool empty() const { return m_choice.empty(); }
   std::size_t entryCount() const { return m_choice.size(); }
+  /// Entries that are not infinitely far.
+  std::size_t nearCount() const { return m_nearCount; }
   bool hasEnvironment() const { return m_environment != kNone; }
 
   /// Draws an entry by power.
@@ -132,6 +134,7 @@ class LightTable {
   std::vector<std::uint32_t> m_emitterOfEntry;
   AliasTable m_choice;
   std::uint32_t m_environment = kNone;
+  std::size_t m_nearCount = 0;
 };
 
 }  // namespace metamer::spectral_ref

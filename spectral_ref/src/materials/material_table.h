@@ -78,6 +78,8 @@ class Bsdf {
     return true;
   }
   bool isDelta() const { return m_kind == Material::Kind::SmoothDielectric; }
+  /// Whether it scatters light from behind as well.
+  bool isTwoSided() const { return m_kind == Material::Kind::RoughDielectric; }
   const Lanes<C>& diffuseReflectance() const { return m_diffuse.reflectance; }
   /// Of a fluorescent surface, once it is chosen what becomes of the lanes.
   void setDiffuseReflectance(const Lanes<C>& reflectance) { m_diffuse.reflectance = reflectance; }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -44,6 +45,21 @@ TEST(ExactSumTest, IsExactDownToItsLastBit) {
   EXPECT_EQ(sum.value(), 0x1p-64);
   sum.add(-0x1p-63);
   EXPECT_EQ(sum.value(), -0x1p-64);
+}
+
+TEST(ExactSumTest, ATermIsCutOffBelowTheLastBit) {
+  std::mt19937_64 random(9);
+  for (int exponent = -70; exponent < 40; ++exponent) {
+    for (int i = 0; i < 100; ++i) {
+      const double size = std::ldexp(1.0 + static_cast<double>(random() >> 12U) * 0x1p-52, exponent);
+      const double whole = std::floor(size);
+      const ExactSum expected{static_cast<std::uint64_t>((size - whole) * 0x1p64), static_cast<std::int64_t>(whole)};
+      ASSERT_EQ(ExactSum::of(size), expected) << size;
+      ASSERT_EQ(ExactSum::of(-size), -expected) << size;
+    }
+  }
+  EXPECT_EQ(ExactSum::of(0.0), ExactSum{});
+  EXPECT_EQ(ExactSum::of(-0.0), ExactSum{});
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 // The same bits whatever the threads, the passes and the parts a render is cut into.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <string>
 
 #include "metamer/spectral_ref/exr_film.h"
 #include "spectral_ref/scene_fixture.h"
@@ -69,6 +71,50 @@ TEST_P(ReproducibleTest, AnotherSeedIsAnotherPicture) {
 INSTANTIATE_TEST_SUITE_P(Integrators, ReproducibleTest,
                          testing::Values(RenderOptions{}, RenderOptions{0, true, Restir::Off},
                                          RenderOptions{0, false, Restir::Hero}, RenderOptions{0, true, Restir::Lanes}));
+
+/// Lamps about a corner: more than a few, so that each surface chooses among them by its place.
+const Scene& lampsInACorner() {
+  static const Scene scene = [] {
+    std::string text =
+        "metamer_scene: 1\n"
+        "film: {width: 24, height: 16}\n"
+        "camera: {origin: [0, 1, 5], target: [0, 1, 0], up: [0, 1, 0], fov_x: 50}\n"
+        "integrator: {max_depth: 5, russian_roulette: 3, wavelengths: 4}\n"
+        "shapes:\n"
+        "  - rectangle: {center: [0, 0, 0], half_u: [2, 0, 0], half_v: [0, 0, -2]}\n    diffuse: 0.7\n"
+        "  - rectangle: {center: [0, 2, -1], half_u: [2, 0, 0], half_v: [0, 2, 0]}\n    diffuse: 0.7\n"
+        "lights:\n";
+    for (int i = 0; i < 9; ++i) {
+      text += "  - point: {position: [" + std::to_string(0.4 * i - 1.6) + ", " + std::to_string(0.3 + 0.2 * (i % 4)) +
+              ", " + std::to_string(0.2 * (i % 3)) + "], intensity: 1}\n";
+    }
+    return sceneOf(text);
+  }();
+  return scene;
+}
+
+TEST(LightChoiceTest, NeitherThreadsNorRangesChangeABit) {
+  for (const RenderOptions& options : {RenderOptions{}, RenderOptions{0, true, Restir::Lanes}}) {
+    const Film whole = rendered(lampsInACorner(), 40, options, 1);
+    EXPECT_EQ(rendered(lampsInACorner(), 40, options, 3).sums(), whole.sums());
+    Film merged(whole.format());
+    for (const auto& [begin, end] : SampleRanges{{23, 40}, {0, 23}}) {
+      Renderer renderer(lampsInACorner(), options, begin);
+      renderer.render(end, kForever);
+      mergeFilm(merged, renderer.film(), "part");
+    }
+    EXPECT_EQ(merged.sums(), whole.sums());
+  }
+}
+
+TEST(LightChoiceTest, ByPlaceIsQuieterAndAFewLightsAreChosenByPower) {
+  const RenderOptions byPower{0, false, Restir::Off, LightRule::Power};
+  EXPECT_EQ(rendered(scene(), 4).sums(), rendered(scene(), 4, byPower).sums());
+  const AreaMean place = luminanceOver(rendered(lampsInACorner(), 256), 0, 0, 24, 16);
+  const AreaMean power = luminanceOver(rendered(lampsInACorner(), 256, byPower), 0, 0, 24, 16);
+  EXPECT_LT(place.error, 0.7 * power.error);
+  EXPECT_LT(std::abs(place.mean - power.mean), 5.0 * std::hypot(place.error, power.error));
+}
 
 }  // namespace
 }  // namespace metamer::spectral_ref

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -14,14 +15,24 @@ struct ExactSum {
   std::int64_t whole = 0;
 
   /// @param term  within +-1e12, so that millions of them fit; the caller sees to that
-  void add(double term) {
-    constexpr double kScale = 18446744073709551616.0;  // 2^64
-    // Through the absolute value: its whole part leaves a rest that a double holds exactly.
-    const double size = std::abs(term);
-    const double below = std::floor(size);
-    const ExactSum positive{static_cast<std::uint64_t>((size - below) * kScale), static_cast<std::int64_t>(below)};
-    add(term < 0 ? -positive : positive);
+  static ExactSum of(double term) {
+    // From the bits of the number, mantissa times 2^(exponent - 1075): a film adds several to each sample.
+    constexpr int kMantissaBits = 52;
+    constexpr int kNoShift = 1075 - 64;
+    const auto bits = std::bit_cast<std::uint64_t>(term);
+    const auto exponent = static_cast<int>(bits >> kMantissaBits) & 0x7ff;
+    const std::uint64_t mantissa =
+        (bits & ((std::uint64_t{1} << kMantissaBits) - 1)) | (std::uint64_t{1} << kMantissaBits);
+    const int shift = exponent - kNoShift;
+    ExactSum size;
+    if (shift > 0) {
+      size = {mantissa << shift, static_cast<std::int64_t>(mantissa >> (64 - shift))};
+    } else if (shift > -64) {
+      size.fraction = mantissa >> -shift;
+    }
+    return std::signbit(term) ? -size : size;
   }
+  void add(double term) { add(of(term)); }
   ExactSum operator-() const { return {0 - fraction, -whole - (fraction != 0 ? 1 : 0)}; }
   void add(const ExactSum& other) {
     fraction += other.fraction;

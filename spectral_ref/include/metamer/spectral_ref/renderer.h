@@ -24,11 +24,18 @@ enum class Restir {
   Lanes,  ///< reservoirs with a target summed over all lanes
 };
 
+/// What next-event estimation chooses a light by, where reservoirs do not.
+enum class LightRule {
+  Place,  ///< what lights may give at a point; in scenes of few lights, their power
+  Power,  ///< their power alone: what the other is measured against
+};
+
 /// What, besides the scene, decides every bit of a picture. The number of threads does not.
 struct RenderOptions {
   std::uint32_t seed = 0;
   bool guiding = false;
   Restir restir = Restir::Off;
+  LightRule lightRule = LightRule::Place;
   bool operator==(const RenderOptions&) const = default;
 };
 
