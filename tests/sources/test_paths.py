@@ -10,7 +10,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("spectral", "skin", "sip", "stage", "ocio_plugin", "lutgen", "ofx", "spectral_ref", "python")
+FOLDERS = ("spectral", "skin", "sip", "stage", "ocio_plugin", "lutgen", "ofx", "playground", "spectral_ref", "python")
 # Where the conversions and the system's own calls stand.
 ALLOWED = {"spectral/src/text/path_text.cpp", "spectral/src/files/platform.cpp"}
 

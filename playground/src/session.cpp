@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session.h"
+
+#include <utility>
+
+#include "metamer/sip/recipe.h"
+#include "metamer/spectral/input_error.h"
+
+namespace metamer::playground {
+
+void Session::setRecipe(const std::string& yaml) {
+  sip::TransformSpec spec = resolve(sip::parseRecipe(yaml, "recipe"), m_library);
+  sip::SpectralTransform transform(spec, sip::kDefaultBandCount, &m_scenes);
+  m_current.emplace(Current{std::move(spec), std::move(transform)});
+}
+
+const Session::Current& Session::current() const {
+  if (!m_current) {
+    throw spectral::InputError("playground", "recipe", "", "none was set yet");
+  }
+  return *m_current;
+}
+
+Session::Current& Session::current() {
+  return const_cast<Current&>(std::as_const(*this).current());
+}
+
+const sip::TransformSpec& Session::spec() const {
+  return current().spec;
+}
+
+const sip::SpectralTransform& Session::transform() const {
+  return current().transform;
+}
+
+sip::SpectralTransform Session::transformIn(const spectral::RgbSpace& space) {
+  sip::TransformSpec spec = current().spec;
+  spec.space = space;
+  return sip::SpectralTransform(spec, sip::kDefaultBandCount, &m_scenes);
+}
+
+const sip::HomogeneousMap& Session::map(double tolerance) {
+  Current& now = current();
+  if (!now.map || now.tolerance != tolerance) {
+    now.map = buildHomogeneousMap(now.transform, tolerance, sip::inOrder, &m_memory);
+    now.tolerance = tolerance;
+  }
+  return *now.map;
+}
+
+}  // namespace metamer::playground

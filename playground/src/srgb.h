@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+namespace metamer::playground {
+
+/// IEC 61966-2-1, mirrored below zero and continued above one.
+inline double srgbFromLinear(double linear) {
+  const double size = std::abs(linear);
+  return std::copysign(size <= 0.0031308 ? 12.92 * size : 1.055 * std::pow(size, 1.0 / 2.4) - 0.055, linear);
+}
+inline double linearFromSrgb(double signal) {
+  const double size = std::abs(signal);
+  return std::copysign(size <= 0.04045 ? size / 12.92 : std::pow((size + 0.055) / 1.055, 2.4), signal);
+}
+
+}  // namespace metamer::playground
