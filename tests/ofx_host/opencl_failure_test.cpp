@@ -66,6 +66,17 @@ TEST_F(OfxOpenClFailure, WhereTheDriverRefusesTheProcessorAnswers) {
   }
 }
 
+TEST_F(OfxOpenClFailure, ADeviceWithoutDoublesHasFewerKernels) {
+  const Host host(builtLibrary(), {.openCl = true});
+  m_settings["space"] = "ACEScct";
+  const auto effect = host.create(0, m_settings);
+  ledger()->refused = "clCreateKernel";
+  ledger()->status = -46;
+  expectTheProcessorsBits(*effect, m_case);
+  EXPECT_EQ(ledger()->kernels, 0);
+  EXPECT_EQ(effect->effect().messagesShown, 0);
+}
+
 TEST_F(OfxOpenClFailure, ADriverThatCannotCompileIsAskedOnce) {
   const Host host(builtLibrary(), {.openCl = true});
   const auto effect = host.create(0, m_settings);

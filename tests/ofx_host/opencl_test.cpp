@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Renders where the host keeps its images in OpenCL buffers: the processor's bits, and no waiting.
 #include <chrono>
+#include <fstream>
 #include <future>
 #include <limits>
 #include <random>
 
 #include "opencl_fixture.h"
+#include "scratch_folder.h"
 
 namespace bare_host {
 namespace {
@@ -79,16 +81,13 @@ TEST_F(OfxOpenCl, MaskMixAndPassingThrough) {
 TEST_F(OfxOpenCl, WhatNoKernelDoesIsReadBack) {
   const Host host(builtLibrary(), {.openCl = true});
   const auto effect = host.create(0, kLamp);
-  // Whole numbers; rows off their alignment; a log space; pixel by pixel.
+  // Whole numbers; rows off their alignment; pixel by pixel.
   const Frame::Shape codes{kLarger, kOfxBitDepthByte, kOfxImageComponentRGBA, 5, true};
   expectTheProcessorsBits(*effect, {.source = codes, .output = {kBounds}, .window = {0, 12, 40, 30}});
   expectTheProcessorsBits(*effect,
                           {.source = {kLarger}, .output = codes, .window = kBounds, .field = kOfxImageFieldUpper});
   const Frame::Shape odd{kBounds, kOfxBitDepthHalf, kOfxImageComponentRGB, 3};
   expectTheProcessorsBits(*effect, {.source = odd, .output = odd, .window = kBounds});
-  effect->set("space", "ACEScct");
-  expectTheProcessorsBits(*effect, {.source = {kLarger}, .output = {kBounds}, .window = kBounds});
-  effect->set("space", "ACEScg");
   effect->set("quality", "Exact");
   expectTheProcessorsBits(*effect, {.source = {kLarger}, .output = {kBounds}, .window = kBounds});
   EXPECT_EQ(ledger()->kernels, 0);
@@ -206,6 +205,64 @@ TEST_F(OfxOpenCl, SkinGivesTheProcessorsBits) {
   }
   effect->set("matte", 0);
   expectTheProcessorsBits(*effect, {.source = {kLarger}, .output = {kBounds}, .window = kBounds});
+  EXPECT_EQ(ledger()->waits, 0);
+}
+
+TEST_F(OfxOpenCl, LogSpacesGiveTheProcessorsBits) {
+  const Host host(builtLibrary(), {.openCl = true});
+  const auto effect = host.create(0, kLamp);
+  const auto skin = host.create(2, {{"melanin", 1.6}, {"space", "S-Log3 S-Gamut3"}});
+  // Signals; light that is far beyond them, below them, and none.
+  for (const float gain : {1.0F, 3.0F, 1e-9F, std::numeric_limits<float>::infinity()}) {
+    for (const char* const premultiplication : {kOfxImageOpaque, kOfxImagePreMultiplied}) {
+      const Case given{.source = {kLarger},
+                       .output = {kBounds},
+                       .window = kBounds,
+                       .premultiplication = premultiplication,
+                       .gain = gain};
+      for (const char* const space :
+           {"ACEScct", "ARRI LogC3", "ARRI LogC4", "S-Log3 S-Gamut3", "V-Log V-Gamut", "Log3G10 REDWideGamutRGB",
+            "Canon Log 2 Cinema Gamut", "Canon Log 3 Cinema Gamut", "DaVinci Intermediate"}) {
+        SCOPED_TRACE(std::string(space) + ", gain " + std::to_string(gain));
+        effect->set("space", space);
+        expectTheProcessorsBits(*effect, given);
+      }
+      expectTheProcessorsBits(*skin, given);
+    }
+  }
+  EXPECT_EQ(effect->message(), "");
+  EXPECT_EQ(ledger()->kernels, 4 * 2 * 10);
+  EXPECT_EQ(ledger()->waits, 0);
+}
+
+TEST_F(OfxOpenCl, StagesGiveTheProcessorsBits) {
+  const ScratchFolder folder;
+  const auto file = folder.path() / "stage.json";
+  std::ofstream(file) << R"({"metamer_stage": 1, "M": [[1.51, -0.25, 0.03], [-0.123, 1.25, -0.0625], [0.07, -0.5, 2.1]],
+    "Q": [[1.01, 0.5, 0.3], [0.1, 1.0, 0.2], [0.05, 0.25, 1.0]], "N": [[0.5, 0.25, 0.1], [0.03, 1.0, 0.25], [0.125, 0.1, 0.75]],
+    "offset": [-0.01, -0.02, -0.005]})";
+  const Host host(builtLibrary(), {.openCl = true});
+  const auto effect = host.create(1, {{"stageFile", textOf(file)}});
+  const int operations = effect->effect().parameters.at("operation")->properties.dimension(kOfxParamPropChoiceOption);
+  const int curves = effect->effect().parameters.at("curve")->properties.dimension(kOfxParamPropChoiceOption);
+  int rendered = 0;
+  for (int curve = 0; curve < curves; ++curve) {
+    for (int operation = 0; operation < operations; ++operation) {
+      SCOPED_TRACE(std::to_string(curve) + ", " + std::to_string(operation));
+      effect->set("curve", curve);
+      effect->set("operation", operation);
+      effect->set("direction", rendered % 2);
+      const Case given{.source = {kLarger},
+                       .output = {kBounds, rendered % 3 == 0 ? kOfxBitDepthHalf : kOfxBitDepthFloat},
+                       .window = kBounds,
+                       .premultiplication = rendered % 4 < 2 ? kOfxImagePreMultiplied : kOfxImageOpaque};
+      expectTheProcessorsBits(*effect, given);
+      ++rendered;
+    }
+  }
+  EXPECT_EQ(effect->message(), "");
+  EXPECT_EQ(ledger()->kernels, rendered);
+  EXPECT_EQ(ledger()->buffers, 0);
   EXPECT_EQ(ledger()->waits, 0);
 }
 

@@ -30,6 +30,9 @@ OpenCl::Owned OpenClPrograms::kernel(OpenCl::Handle context, OpenCl::Handle devi
   }
   OpenCl::Status status = OpenCl::kSuccess;
   OpenCl::Owned made(m_library->createKernel(built.program.get(), name, &status), m_library->releaseKernel);
+  if (status == OpenCl::kInvalidKernelName) {
+    return {nullptr, m_library->releaseKernel};
+  }
   OpenClError::check(status, "a kernel");
   return made;
 }

@@ -16,9 +16,9 @@ class OpenClPrograms {
  public:
   explicit OpenClPrograms(std::shared_ptr<const OpenCl> library) : m_library(std::move(library)) {}
 
-  /// A kernel of this name, the caller's alone: arguments are a kernel's state.
+  /// A kernel of this name, the caller's alone: arguments are a kernel's state. Null where the device cannot run it.
   /// @throws OpenClError where the driver does not build the program, with its compiler's first line; that is
-  ///         remembered, and it is not asked again. kInvalidKernelName: this device cannot run that kernel
+  ///         remembered, and it is not asked again.
   OpenCl::Owned kernel(OpenCl::Handle context, OpenCl::Handle device, const char* name);
 
  private:

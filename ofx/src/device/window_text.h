@@ -28,6 +28,7 @@ struct Window {
   std::int32_t hasMask = 0;
   float mix = 1.0F;
   std::int32_t copiesCodes = 0;  ///< nothing is done to a pixel, nor to its format
+  std::int32_t divides = 0;      ///< alpha is divided out before and multiplied back after
 };
 
 /// The arguments of each kernel, in order.
@@ -40,7 +41,8 @@ enum class WindowArgument : std::uint32_t {
   OutputImage,
   Window,
   Nodes,
-  Cells
+  Cells,
+  Curve  ///< of the kernels between curves alone
 };
 
 /// Kernels over a window, one work item a pixel and row: pixels in the host's memory as render() takes them, to its
@@ -48,6 +50,11 @@ enum class WindowArgument : std::uint32_t {
 inline constexpr const char* kCopyWindow = "metamerCopyWindow";  ///< reads no tables
 inline constexpr const char* kMapWindow = "metamerMapWindow";    ///< tables of sip::DeviceKernel::Map
 inline constexpr const char* kSkinWindow = "metamerSkinWindow";  ///< tables of SkinPixels
+/// Where the device has doubles, these as well: tables of AffinePixels; the two above between the curves of a
+/// SignalTable.
+inline constexpr const char* kAffineWindow = "metamerAffineWindow";
+inline constexpr const char* kMapCurveWindow = "metamerMapCurveWindow";
+inline constexpr const char* kSkinCurveWindow = "metamerSkinCurveWindow";
 
 /// OpenCL C 1.2 of all of them.
 std::string openClWindowText();

@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "metamer/spectral/log_pieces.h"
+#include "pixels/device_words.h"
+
 namespace metamer::ofx {
 
 void AffinePixels::apply(std::span<const float> source, std::span<float> destination) const {
@@ -33,6 +36,21 @@ void AffinePixels::apply(std::span<const float> source, std::span<float> destina
 
 bool AffinePixels::isIdentity() const {
   return m_form.matrix.isIdentity(0.0) && m_form.offset.isZero(0.0) && !m_form.clampsBelow;
+}
+
+sip::DeviceTables AffinePixels::deviceTables() const {
+  sip::DeviceTables tables;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = 0; column < 3; ++column) {
+      appendDouble(tables.cells, m_form.matrix(row, column));
+    }
+  }
+  for (const double value : {m_form.offset[0], m_form.offset[1], m_form.offset[2], m_form.clampsBelow ? 1.0 : 0.0,
+                             m_form.encoding ? 1.0 : 0.0}) {
+    appendDouble(tables.cells, value);
+  }
+  appendPieces(tables.cells, m_form.encoding ? spectral::piecesOf(*m_form.encoding) : spectral::LogPieces{});
+  return tables;
 }
 
 }  // namespace metamer::ofx

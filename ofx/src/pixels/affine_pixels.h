@@ -24,9 +24,14 @@ class AffinePixels final : public PixelTransform {
   void apply(std::span<const float> source, std::span<float> destination) const override;
   bool isIdentity() const override;
   bool isHomogeneous() const override { return m_form.offset.isZero(0.0) && !m_form.encoding; }
+  std::optional<DeviceForm> deviceForm() const override { return DeviceForm{DeviceForm::Kernel::Affine, &m_resident}; }
 
  private:
+  /// Doubles: matrix, offset, whether it clamps, whether there is a curve, its pieces.
+  sip::DeviceTables deviceTables() const;
+
   Form m_form;
+  ResidentTables m_resident{[this] { return deviceTables(); }};
 };
 
 }  // namespace metamer::ofx

@@ -10,27 +10,21 @@
 
 namespace metamer::ofx {
 
-/// What other devices run in the place of a PixelTransform's apply(): a kernel and its tables. Copies of the tables on
-/// devices live as long as the form, which lives as long as what the tables are of. Safe between threads.
-class DeviceForm {
+/// Tables that kernels of other devices read, with the copies of them that lie there. The copies live as long as this
+/// does, which lives as long as what the tables are of. Safe between threads.
+class ResidentTables {
  public:
-  /// By the kernel of the device room that has this name.
-  enum class Kernel { Map, Skin };
-
   /// What a device keeps of the tables.
   struct Copy {
     virtual ~Copy() = default;
   };
   using Upload = std::function<std::shared_ptr<const Copy>(const sip::DeviceTables&)>;
 
-  /// @param tables  makes them; called once for each place that they are copied to
-  DeviceForm(Kernel kernel, std::function<sip::DeviceTables()> tables)
-      : m_kernel(kernel), m_tables(std::move(tables)) {}
+  /// @param make  makes the tables; called once for each place that they are copied to
+  explicit ResidentTables(std::function<sip::DeviceTables()> make) : m_make(std::move(make)) {}
 
-  Kernel kernel() const { return m_kernel; }
-
-  /// The copy at a place (a context of a device), made by `upload` where there is none yet. A form remembers the latest
-  /// few places; who holds a copy keeps it.
+  /// The copy at a place (a context of a device), made by `upload` where there is none yet. The latest few places are
+  /// remembered; who holds a copy keeps it.
   /// @throws what upload throws; nothing is kept then
   std::shared_ptr<const Copy> copyAt(const void* place, const Upload& upload) const {
     const std::lock_guard lock(m_mutex);
@@ -39,7 +33,7 @@ class DeviceForm {
         return kept.copy;
       }
     }
-    m_copies.push_front({place, upload(m_tables())});
+    m_copies.push_front({place, upload(m_make())});
     if (m_copies.size() > kKeptCopies) {
       m_copies.pop_back();
     }
@@ -53,10 +47,20 @@ class DeviceForm {
   };
   static constexpr std::size_t kKeptCopies = 4;
 
-  Kernel m_kernel;
-  std::function<sip::DeviceTables()> m_tables;
+  std::function<sip::DeviceTables()> m_make;
   mutable std::mutex m_mutex;
   mutable std::list<Kept> m_copies;  ///< latest first
+};
+
+/// What other devices run in the place of a PixelTransform's apply(): a kernel of the device room, and its tables.
+struct DeviceForm {
+  enum class Kernel { Copy, Map, Skin, Affine };
+
+  Kernel kernel = Kernel::Copy;  ///< reads no tables
+  const ResidentTables* tables = nullptr;
+  /// Of a SignalTable, where pixels are decoded before and encoded after; null: they are not. Affine has its curve in
+  /// its own tables.
+  const ResidentTables* curve = nullptr;
 };
 
 }  // namespace metamer::ofx

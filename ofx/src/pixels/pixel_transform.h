@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "pixels/device_form.h"
@@ -29,9 +30,9 @@ class PixelTransform {
   /// Whether T(k c) = k T(c) for k > 0: premultiplied pixels may then be given as they are.
   virtual bool isHomogeneous() const = 0;
 
-  /// What a device runs in the place of apply(), once that is prepared; lives as long as the transform. Null where
-  /// there is nothing that gives its bits.
-  virtual const DeviceForm* deviceForm() const { return nullptr; }
+  /// What a device runs in the place of apply(), once that is prepared; its tables live as long as the transform. Empty
+  /// where no kernel gives its bits.
+  virtual std::optional<DeviceForm> deviceForm() const { return std::nullopt; }
 };
 
 }  // namespace metamer::ofx

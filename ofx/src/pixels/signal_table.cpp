@@ -7,24 +7,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "metamer/spectral/log_pieces.h"
+#include "pixels/device_words.h"
+
 namespace metamer::ofx {
 namespace {
 
-// Signals: what cameras write, with room for what a transform makes of it.
-constexpr double kLeastSignal = -0.5;
-constexpr double kMostSignal = 1.5;
-constexpr int kSignalCells = 1 << 12;
-constexpr double kCellsPerSignal = kSignalCells / (kMostSignal - kLeastSignal);
-
-// Light: |x| from 2^-20 to 2^20, each octave in as many cells.
-constexpr int kLeastExponent = -20;
-constexpr int kMostExponent = 20;
-constexpr int kCellBits = 6;
-constexpr int kRestBits = 23 - kCellBits;
-constexpr std::uint32_t kExponentBias = 127;
-constexpr std::size_t kCellsASign = static_cast<std::size_t>(kMostExponent - kLeastExponent) << kCellBits;
-constexpr std::uint32_t kFirstCell = (kExponentBias + kLeastExponent) << kCellBits;
-constexpr double kPerRest = 1.0 / (1U << kRestBits);
+constexpr double kPerRest = 1.0 / (1U << SignalTable::kRestBits);
 
 /// What a cell may be off by, of its value.
 constexpr double kTolerance = 3e-8;
@@ -105,6 +94,19 @@ void SignalTable::encode(std::span<float> rgba) const {
       rgba[k] = encodeOne(rgba[k]);
     }
   }
+}
+
+sip::DeviceTables SignalTable::deviceTables() const {
+  sip::DeviceTables tables;
+  appendPieces(tables.cells, spectral::piecesOf(m_encoding));
+  for (const std::vector<Cell>* const cells : {&m_light, &m_signal}) {
+    for (const Cell& cell : *cells) {
+      appendDouble(tables.cells, cell.constant);
+      appendDouble(tables.cells, cell.linear);
+      appendDouble(tables.cells, cell.square);
+    }
+  }
+  return tables;
 }
 
 }  // namespace metamer::ofx

@@ -116,6 +116,13 @@ void SkinPixels::findPlaces(const float* rgba, std::size_t count, Places& places
   }
 }
 
+std::optional<DeviceForm> SkinPixels::deviceForm() const {
+  if (m_changes.empty()) {
+    return std::nullopt;
+  }
+  return DeviceForm{DeviceForm::Kernel::Skin, &m_resident, m_encoding ? &m_table->resident() : nullptr};
+}
+
 sip::DeviceTables SkinPixels::deviceTables() const {
   const skin::SkinChromaticities& range = m_look.chromaticities();
   const Eigen::Array2f low = range.low.cast<float>();

@@ -29,7 +29,7 @@ class SkinPixels final : public PixelTransform {
   void apply(std::span<const float> source, std::span<float> destination) const override;
   bool isIdentity() const override { return m_look.isIdentity(); }
   bool isHomogeneous() const override { return !m_encoding; }
-  const DeviceForm* deviceForm() const override { return m_changes.empty() || m_encoding ? nullptr : &m_deviceForm; }
+  std::optional<DeviceForm> deviceForm() const override;
 
  private:
   using Change = std::array<float, 4>;
@@ -53,7 +53,7 @@ class SkinPixels final : public PixelTransform {
   Quality m_quality;
   int m_cells;                    ///< along each chromaticity
   std::vector<Change> m_changes;  ///< of a colour of mean one, by knot; the fourth is nothing
-  DeviceForm m_deviceForm{DeviceForm::Kernel::Skin, [this] { return deviceTables(); }};
+  ResidentTables m_resident{[this] { return deviceTables(); }};
 };
 
 }  // namespace metamer::ofx

@@ -71,9 +71,12 @@ class SpectralPixels final : public PixelTransform {
 
   bool isIdentity() const override { return m_engine->exact().isIdentity(); }
   bool isHomogeneous() const override { return !m_encoding; }
-  const DeviceForm* deviceForm() const override {
+  std::optional<DeviceForm> deviceForm() const override {
     const sip::HomogeneousMap* const map = m_map;
-    return map == nullptr || m_encoding ? nullptr : &m_engine->deviceForm(*map);
+    if (map == nullptr) {
+      return std::nullopt;
+    }
+    return DeviceForm{DeviceForm::Kernel::Map, &m_engine->resident(*map), m_encoding ? &m_table->resident() : nullptr};
   }
 
  private:

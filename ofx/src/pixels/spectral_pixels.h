@@ -43,8 +43,8 @@ class SpectralEngine {
   /// map() where it is there; else a coarse one, in a fraction of the time.
   const sip::HomogeneousMap& draftMap() const;
   /// Of a map that one of these has returned.
-  const DeviceForm& deviceForm(const sip::HomogeneousMap& map) const {
-    return m_hasMap && &map == &*m_map ? m_mapForm : m_draftForm;
+  const ResidentTables& resident(const sip::HomogeneousMap& map) const {
+    return m_hasMap && &map == &*m_map ? m_residentMap : m_residentDraft;
   }
 
  private:
@@ -57,8 +57,8 @@ class SpectralEngine {
   mutable std::atomic<bool> m_hasMap = false;
   mutable std::mutex m_draftMutex;
   mutable std::optional<sip::HomogeneousMap> m_draft;
-  DeviceForm m_mapForm{DeviceForm::Kernel::Map, [this] { return sip::deviceTables(*m_map); }};
-  DeviceForm m_draftForm{DeviceForm::Kernel::Map, [this] { return sip::deviceTables(*m_draft); }};
+  ResidentTables m_residentMap{[this] { return sip::deviceTables(*m_map); }};
+  ResidentTables m_residentDraft{[this] { return sip::deviceTables(*m_draft); }};
 };
 
 enum class Quality { Map, Exact };

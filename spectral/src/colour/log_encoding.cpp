@@ -3,13 +3,18 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
+
+#include "metamer/spectral/log_pieces.h"
 
 // The makers print constants rounded to six or so digits, so that their linear and logarithmic parts miss each other by
 // up to 1e-6 at the cut. Here the linear part starts at the value of the logarithmic part at the cut, with the maker's
 // slope: continuous to the last bit, and within that rounding of the printed formula.
 namespace metamer::spectral {
 namespace {
+
+constexpr double kNowhere = -std::numeric_limits<double>::infinity();
 
 /// signal = c log10(a x + b) + d from the cut on; below it the straight line of the given slope.
 struct LogWithLinearToe {
@@ -21,6 +26,7 @@ struct LogWithLinearToe {
     const double signalAtCut = atCut();
     return signal >= signalAtCut ? (std::pow(10.0, (signal - d) / c) - b) / a : cut + (signal - signalAtCut) / toeSlope;
   }
+  LogPieces pieces() const { return {{a, b, c, d}, {}, cut, atCut(), kNowhere, kNowhere, toeSlope}; }
 };
 
 /// log10(2), for curves that their makers write in base 2.
@@ -65,6 +71,10 @@ struct LogC4 {
   static double decode(double signal) {
     return signal >= 0 ? (std::exp2(14.0 * ((signal - kC) / kB) + 6.0) - 64.0) / kA : signal * slope() + cut();
   }
+  static LogPieces pieces() {
+    const LogPieces::Logarithm logarithm{kA, 64.0, kB / (14.0 * kLog10Of2), kC - 6.0 / 14.0 * kB};
+    return {logarithm, {}, cut(), 0.0, kNowhere, kNowhere, 1.0 / slope()};
+  }
 };
 
 /// The logarithm of Canon's curves, mirrored about zero light.
@@ -83,6 +93,11 @@ struct CanonLog2 {
   static double decode(double signal) {
     const double above = signal - kOffset;
     return kCanonWhite * std::copysign((std::pow(10.0, std::abs(above) / kScale) - 1.0) / kGain, above);
+  }
+  static LogPieces pieces() {
+    constexpr double kGainOfLight = kGain / kCanonWhite;
+    return {
+        {kGainOfLight, 1.0, kScale, kOffset}, {-kGainOfLight, 1.0, -kScale, kOffset}, 0.0, kOffset, 0.0, kOffset, 1.0};
   }
 };
 
@@ -120,6 +135,17 @@ struct CanonLog3 {
       return -kCanonWhite * (std::pow(10.0, (kOffsetBelow - signal) / kScale) - 1.0) / kGain;
     }
     return kCanonWhite * kCut * (2.0 * (signal - lower) / (upper - lower) - 1.0);
+  }
+  static LogPieces pieces() {
+    constexpr double kGainOfLight = kGain / kCanonWhite;
+    const double half = kCanonWhite * kCut;
+    return {{kGainOfLight, 1.0, kScale, kOffsetAbove},
+            {-kGainOfLight, 1.0, -kScale, kOffsetBelow},
+            half,
+            upperEnd(),
+            -half,
+            lowerEnd(),
+            (upperEnd() - lowerEnd()) / (2.0 * half)};
   }
 };
 
@@ -161,7 +187,7 @@ namespace {
 
 /// Calls `use` with the curve.
 template <typename Use>
-double withCurve(LogEncoding encoding, const Use& use) {
+auto withCurve(LogEncoding encoding, const Use& use) -> decltype(use(kAcesCct)) {
   switch (encoding) {
     case LogEncoding::AcesCct:
       return use(kAcesCct);
@@ -182,7 +208,7 @@ double withCurve(LogEncoding encoding, const Use& use) {
     case LogEncoding::DaVinciIntermediate:
       return use(kDaVinciIntermediate);
   }
-  return 0;
+  return {};
 }
 
 }  // namespace
@@ -193,6 +219,10 @@ double encode(LogEncoding encoding, double linear) {
 
 double decode(LogEncoding encoding, double signal) {
   return withCurve(encoding, [&](const auto& curve) { return curve.decode(signal); });
+}
+
+LogPieces piecesOf(LogEncoding encoding) {
+  return withCurve(encoding, [](const auto& curve) { return curve.pieces(); });
 }
 
 }  // namespace metamer::spectral

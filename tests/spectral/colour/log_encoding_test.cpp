@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "metamer/spectral/log_pieces.h"
 #include "spectral/fixture.h"
 
 namespace metamer::spectral {
@@ -99,6 +101,35 @@ TEST(LogEncodingTest, AllInTheOrderOfTheEnumeration) {
   ASSERT_EQ(allLogEncodings().size(), 9U);
   for (std::size_t i = 0; i < allLogEncodings().size(); ++i) {
     EXPECT_EQ(static_cast<std::size_t>(allLogEncodings()[i]), i);
+  }
+}
+
+TEST(LogEncodingTest, PiecesAreTheCurve) {
+  const auto encoded = [](const LogPieces& p, double light) {
+    const auto logarithm = [&](const LogPieces::Logarithm& l) {
+      return l.scale * std::log10(l.gain * light + l.shift) + l.offset;
+    };
+    return light >= p.lightAbove  ? logarithm(p.above)
+           : light < p.lightBelow ? logarithm(p.below)
+                                  : p.signalAbove + p.slope * (light - p.lightAbove);
+  };
+  const auto decoded = [](const LogPieces& p, double signal) {
+    const auto exponential = [&](const LogPieces::Logarithm& l) {
+      return (std::pow(10.0, (signal - l.offset) / l.scale) - l.shift) / l.gain;
+    };
+    return signal >= p.signalAbove  ? exponential(p.above)
+           : signal < p.signalBelow ? exponential(p.below)
+                                    : p.lightAbove + (signal - p.signalAbove) / p.slope;
+  };
+  for (const LogEncoding encoding : allLogEncodings()) {
+    const LogPieces pieces = piecesOf(encoding);
+    for (int i = -3000; i <= 3000; ++i) {
+      const double signal = i * 1.0007e-3;
+      const double light = decode(encoding, signal);
+      // A step of a double at 3, through the steepest of the curves.
+      EXPECT_NEAR(decoded(pieces, signal), light, 1e-13 * std::max(std::abs(light), 1.0)) << nameOf(encoding);
+      EXPECT_NEAR(encoded(pieces, light), encode(encoding, light), 1e-14) << nameOf(encoding) << " at " << light;
+    }
   }
 }
 
