@@ -2,7 +2,7 @@
 const mostPixels = 960 * 540;
 // CIEDE2000 that the fast map may be off by at its checked points: while a control moves, and once it rests. On photographs
 // the first is off by 0.4 in the mean and 1.3 at the 99th percentile, the second by 0.04 and 0.3.
-const whileMoving = 10, atRest = 0.3;
+const whileMoving = 100, atRest = 0.3;
 const restMilliseconds = 300;
 
 const at = id => document.getElementById(id);
@@ -88,7 +88,8 @@ async function show(tolerance) {
   const milliseconds = performance.now() - began;
   document.documentElement.dataset.milliseconds = milliseconds.toFixed(1);
   document.documentElement.dataset.tolerance = tolerance;
-  say(`Shown in ${Math.round(milliseconds)} ms.`);
+  say('');
+  at('timing').textContent = `Shown in ${Math.round(milliseconds)} ms.`;
 }
 
 async function change() {

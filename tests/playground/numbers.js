@@ -2,13 +2,18 @@
 // Linear pixels through the playground's engine:
 //   node numbers.js FOLDER-OF-THE-ENGINE RECIPE.yaml PIXELS TOLERANCE
 //   node numbers.js FOLDER-OF-THE-ENGINE RECIPE.yaml --cube SPACE SIZE
-// PIXELS: float32, red, green, blue, alpha; changed in place. TOLERANCE 0: the exact engine. The cube goes to stdout. Prints what
-// the engine says of the recipe otherwise, as JSON.
+//   node numbers.js FOLDER-OF-THE-ENGINE RECIPE.yaml --times TOLERANCE OTHER.yaml...
+// PIXELS: float32, red, green, blue, alpha; changed in place. TOLERANCE 0: the exact engine. The cube goes to stdout; so do
+// milliseconds of processor time, as JSON, to begin and show a picture of 960 x 540, then to show it by each other recipe. Prints
+// what the engine says of the recipe otherwise, as JSON.
 'use strict';
 const fs = require('fs');
 const [folder, recipeFile, ...order] = process.argv.slice(2);
 
+const processorTime = () => process.cpuUsage().user / 1000;
+
 async function main() {
+  const began = processorTime();
   const engine = await require(`${folder}/engine.js`)({wasmBinary: fs.readFileSync(`${folder}/engine.wasm`)});
   const given = text => {
     const size = engine.lengthBytesUTF8(text) + 1, place = engine._malloc(size);
@@ -24,6 +29,21 @@ async function main() {
   const findings = answer(engine._metamer_set(given(fs.readFileSync(recipeFile, 'utf8'))));
   if (order[0] === '--cube') {
     process.stdout.write(answer(engine._metamer_cube(given(order[1]), Number(order[2]))).text);
+    return;
+  }
+  if (order[0] === '--times') {
+    const codes = engine._metamer_picture(960 * 540);
+    for (let i = 0; i < 4 * 960 * 540; ++i) engine.HEAPU8[codes + i] = (i * 2654435761 >>> 20) & 255;
+    engine._metamer_decode();
+    let last = began;
+    const times = [recipeFile, ...order.slice(2)].map((file, k) => {
+      if (k > 0) answer(engine._metamer_set(given(fs.readFileSync(file, 'utf8'))));
+      answer(engine._metamer_show(Number(order[1])));
+      const now = processorTime(), taken = now - last;
+      last = now;
+      return taken;
+    });
+    console.log(JSON.stringify(times));
     return;
   }
   const pixels = fs.readFileSync(order[0]), at = engine._malloc(pixels.length);

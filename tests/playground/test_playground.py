@@ -115,6 +115,24 @@ class Numbers(Folder):
         # What 33 plain nodes a side are good for: a wrong curve or order of nodes is off by 10 and more.
         self.assertLess(float(mean[1]), 1.0, run.stdout)
 
+    def test_it_is_fast(self):
+        tolerance = re.search(r"whileMoving = (\d+)", (ROOT / "playground" / "page" / "page.js").read_text())[1]
+        changed = []
+        for k, light in enumerate(("A", "A", "FL2", "D75", "LED-B5")):
+            for adaptation in (0.2, 0.4, 0.6):
+                file = self.folder / f"{k}_{adaptation}.yaml"
+                file.write_text("metamer: 1\nspace: Rec.709\ninput: {illuminant: " + light + "}\noutput: {illuminant: HP1, "
+                                f"adaptation: {adaptation}}}\nbalanced: camera\n")
+                changed.append(file)
+        first, *times = json.loads(self.run_engine(self.recipe("sodium"), "--times", tolerance, *changed))
+        moved = min(times[k] for k in range(len(times)) if k % 3 > 0)
+        shot = min(times[k] for k in range(6, len(times), 3))
+        print(f"processor time, ms: first {first:.0f}, output or adaptation {moved:.0f}, light of the shot {shot:.0f}")
+        # docs/playground.md says half; who shares a core with others takes up to twice as long.
+        self.assertLess(first, 2000)
+        self.assertLess(moved, 100)
+        self.assertLess(shot, 200)
+
     def test_a_bad_recipe_is_told(self):
         (self.folder / "bad.yaml").write_text("metamer: 1\ninput: {illuminant: D66}\noutput: {illuminant: A}\n")
         run = subprocess.run(["node", HERE / "numbers.js", ENGINE, self.folder / "bad.yaml", "--cube", "sRGB", "17"],
@@ -185,14 +203,13 @@ class InBrowser(Folder):
             "light": ("out", ["LED-RGB1", "A", "FL11", "LED-B3", "D50"]),
             "shot": ("in", ["A", "FL2", "D75", "LED-B5", "FL7"]),
         }
-        # The best of five, as others may work on this machine too.
         times = {kind: min(self.change(f"{self.SET} set('{place}', '{value}')") for value in values)
                  for kind, (place, values) in changes.items()}
         print(f"first result {first:.0f} ms; changes, ms:", {name: round(value) for name, value in times.items()})
-        # Twice what docs/playground.md promises of a quiet machine.
-        self.assertLess(first, 2000)
+        # By the clock, however many others work on this machine; Numbers.test_it_is_fast is stricter.
+        self.assertLess(first, 5000)
         for name, value in times.items():
-            self.assertLess(value, 200, name)
+            self.assertLess(value, 1000, name)
         self.settle()
         self.assertLess(float(self.page.evaluate("document.documentElement.dataset.tolerance")), 0.31)
         self.page.evaluate("document.getElementById('save-cube').click()")
