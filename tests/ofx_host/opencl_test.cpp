@@ -16,6 +16,14 @@ constexpr OfxRectI kBounds = {-7, 11, 58, 40};
 constexpr OfxRectI kLarger = {-20, 0, 70, 55};
 const std::map<std::string, Properties::Value> kLamp = {{"outputIlluminant", "HP1"}, {"adaptation", 0.3}};
 
+std::string stageIn(const ScratchFolder& folder) {
+  const auto file = folder.path() / "stage.json";
+  std::ofstream(file) << R"({"metamer_stage": 1, "M": [[1.51, -0.25, 0.03], [-0.123, 1.25, -0.0625], [0.07, -0.5, 2.1]],
+    "Q": [[1.01, 0.5, 0.3], [0.1, 1.0, 0.2], [0.05, 0.25, 1.0]], "N": [[0.5, 0.25, 0.1], [0.03, 1.0, 0.25], [0.125, 0.1, 0.75]],
+    "offset": [-0.01, -0.02, -0.005]})";
+  return textOf(file);
+}
+
 TEST_F(OfxOpenCl, EveryShapeOfMemoryGivesTheProcessorsBits) {
   const Host host(builtLibrary(), {.openCl = true});
   const auto effect = host.create(0, kLamp);
@@ -237,12 +245,8 @@ TEST_F(OfxOpenCl, LogSpacesGiveTheProcessorsBits) {
 
 TEST_F(OfxOpenCl, StagesGiveTheProcessorsBits) {
   const ScratchFolder folder;
-  const auto file = folder.path() / "stage.json";
-  std::ofstream(file) << R"({"metamer_stage": 1, "M": [[1.51, -0.25, 0.03], [-0.123, 1.25, -0.0625], [0.07, -0.5, 2.1]],
-    "Q": [[1.01, 0.5, 0.3], [0.1, 1.0, 0.2], [0.05, 0.25, 1.0]], "N": [[0.5, 0.25, 0.1], [0.03, 1.0, 0.25], [0.125, 0.1, 0.75]],
-    "offset": [-0.01, -0.02, -0.005]})";
   const Host host(builtLibrary(), {.openCl = true});
-  const auto effect = host.create(1, {{"stageFile", textOf(file)}});
+  const auto effect = host.create(1, {{"stageFile", stageIn(folder)}});
   const int operations = effect->effect().parameters.at("operation")->properties.dimension(kOfxParamPropChoiceOption);
   const int curves = effect->effect().parameters.at("curve")->properties.dimension(kOfxParamPropChoiceOption);
   int rendered = 0;
@@ -264,6 +268,28 @@ TEST_F(OfxOpenCl, StagesGiveTheProcessorsBits) {
   EXPECT_EQ(ledger()->kernels, rendered);
   EXPECT_EQ(ledger()->buffers, 0);
   EXPECT_EQ(ledger()->waits, 0);
+}
+
+TEST_F(OfxOpenCl, EveryKernelOnSmallFrames) {
+  // Also run by test_opencl_races.py, which is slow.
+  const Host host(builtLibrary(), {.openCl = true});
+  const Frame::Shape shape{{0, 0, 11, 3}, kOfxBitDepthHalf, kOfxImageComponentRGB, 4, true};
+  Frame mask({{2, -1, 9, 3}, kOfxBitDepthFloat, kOfxImageComponentAlpha});
+  mask.fill(testPixel);
+  Case given{.source = shape, .output = {{1, 0, 14, 3}}, .mask = &mask, .window = {0, 0, 14, 3}};
+  const auto effect = host.create(0, kLamp);
+  const auto skin = host.create(2, {{"melanin", 1.6}});
+  for (const char* const space : {"ACEScg", "ACEScct"}) {
+    effect->set("space", space);
+    skin->set("space", space);
+    expectTheProcessorsBits(*effect, given);
+    expectTheProcessorsBits(*skin, given);
+  }
+  effect->set("mix", 0.0);
+  expectTheProcessorsBits(*effect, given);
+  const ScratchFolder folder;
+  expectTheProcessorsBits(*host.create(1, {{"stageFile", stageIn(folder)}}), given);
+  EXPECT_EQ(ledger()->kernels, 6);
 }
 
 TEST_F(OfxOpenCl, RandomParameters) {
