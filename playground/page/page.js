@@ -80,10 +80,12 @@ function tell(findings) {
 }
 
 async function show(tolerance) {
-  const began = performance.now();
+  const began = performance.now(), {width, height} = after;
   const {findings} = await ask('recipe', {recipe: recipe()});
   const {pixels} = await ask('show', {tolerance, length: pixelBytes});
-  after.getContext('2d').putImageData(new ImageData(new Uint8ClampedArray(pixels.buffer), after.width, after.height), 0, 0);
+  // Another picture came, and will be shown by the change that it brings.
+  if (after.width !== width || after.height !== height) return;
+  after.getContext('2d').putImageData(new ImageData(new Uint8ClampedArray(pixels.buffer), width, height), 0, 0);
   tell(findings);
   const milliseconds = performance.now() - began;
   document.documentElement.dataset.milliseconds = milliseconds.toFixed(1);

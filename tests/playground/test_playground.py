@@ -252,6 +252,28 @@ class InBrowser(Folder):
         self.assertGreater(np.mean(self.pixels() != before), 0.2)
         self.assertEqual(self.page.errors, [])
 
+    def test_a_picture_may_come_while_one_is_shown(self):
+        self.opened(PAGE.as_uri())
+        failed = self.page.evaluate(f"""(async () => {{
+            {self.SET}
+            const status = document.getElementById('status'), failed = [];
+            new MutationObserver(() => status.classList.contains('error') && failed.push(status.textContent))
+                .observe(status, {{attributes: true, childList: true}});
+            for (let k = 0; k < 10; ++k) {{
+                const canvas = new OffscreenCanvas(64 + k, 48);
+                canvas.getContext('2d').fillRect(0, 0, 64 + k, 48);
+                const file = new File([await canvas.convertToBlob({{type: 'image/png'}})], 'black.png');
+                set('in', k % 2 === 0 ? 'FL2' : 'D65');
+                await new Promise(done => setTimeout(done, 15 * k));
+                await takeFile(file);
+            }}
+            return failed;
+        }})()""")
+        self.settle()
+        self.assertEqual(failed, [])
+        self.assertEqual(self.pixels()[:4].tolist(), [0, 0, 0, 255])
+        self.assertEqual(self.pixels().size, 4 * 73 * 48)
+
     def test_what_is_no_picture_is_told(self):
         self.opened(PAGE.as_uri())
         self.page.evaluate("takeFile(new File(['words'], 'words.txt'))")
