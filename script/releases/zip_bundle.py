@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Zips a folder of bundles: zip_bundle.py FOLDER ZIP SECONDS. Sorted, with one date, so that the same files give the same bytes."""
+"""Zips a folder of bundles with its notes: zip_bundle.py FOLDER NOTES VERSION ZIP SECONDS. NOTES, a text in which VERSION stands for
+the version, becomes INSTALL.txt. Sorted, with one date, so that the same files give the same bytes."""
 
 import sys
 import time
@@ -8,16 +9,19 @@ import zipfile
 from pathlib import Path
 
 
-def main(folder: Path, target: Path, seconds: int) -> None:
+def main(folder: Path, notes: Path, version: str, target: Path, seconds: int) -> None:
     date = time.gmtime(seconds)[:6]
+    # Windows' own editor, of any year, reads the lines.
+    text = notes.read_text(encoding="utf-8").replace("VERSION", version).replace("\n", "\r\n" if "windows" in notes.name else "\n")
+    files = {file.relative_to(folder).as_posix(): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
     with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for file in sorted(path for path in folder.rglob("*") if path.is_file()):
-            member = zipfile.ZipInfo(file.relative_to(folder).as_posix(), date)
+        for name, data in sorted({**files, "INSTALL.txt": text.encode()}.items()):
+            member = zipfile.ZipInfo(name, date)
             member.compress_type = zipfile.ZIP_DEFLATED
             # A library is a program to macOS; nothing else is.
-            member.external_attr = (0o100755 if file.suffix == ".ofx" else 0o100644) << 16
-            archive.writestr(member, file.read_bytes())
+            member.external_attr = (0o100755 if name.endswith(".ofx") else 0o100644) << 16
+            archive.writestr(member, data)
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3]))
+    main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], Path(sys.argv[4]), int(sys.argv[5]))
