@@ -14,4 +14,12 @@ FilmSensor::FilmSensor(const FilmSettings& settings) : m_bins(settings.bins), m_
   }
 }
 
+Eigen::Matrix<double, kCells, 4> FilmSensor::channels() const {
+  Eigen::Matrix<double, kCells, 4> channels;
+  for (Eigen::Index cell = 0; cell < kCells; ++cell) {
+    channels.row(cell) = m_curves[static_cast<std::size_t>(cell)].abs().cast<double>().matrix().transpose();
+  }
+  return channels;
+}
+
 }  // namespace metamer::spectral_ref

@@ -56,6 +56,8 @@ class FilmSensor {
   float luminance(std::int32_t cell) const { return m_curves[static_cast<std::size_t>(cell)][3]; }
   /// What a radiance of 1 in a cell adds to luminance and all three responses, none negative.
   float worth(std::int32_t cell) const { return m_curves[static_cast<std::size_t>(cell)].abs().sum(); }
+  /// What worth() is the sum of, a row a cell.
+  Eigen::Matrix<double, kCells, 4> channels() const;
   std::uint64_t refused() const { return m_refused.load(); }
 
  private:

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMostSamplesAPass = 4096;
 /// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
-constexpr std::uint64_t kStateVersion = 0x6d65746100000005U;
+constexpr std::uint64_t kStateVersion = 0x6d65746100000006U;
 
 std::vector<Tile> tilesOf(int width, int height) {
   std::vector<Tile> tiles;
@@ -60,9 +60,10 @@ struct Renderer::State {
         tiles(tilesOf(scene.film.width, scene.film.height)),
         arena(threads > 0 ? std::min(threads, tbb::info::default_concurrency()) : tbb::task_arena::automatic),
         first(firstSample),
-        guide(options.guiding ? std::make_unique<WavelengthGuide>(scene.film.width, scene.film.height,
-                                                                  scene.integrator.wavelengths, worthOfLights(scene))
-                              : nullptr),
+        guide(options.guiding
+                  ? std::make_unique<WavelengthGuide>(scene.film.width, scene.film.height, scene.integrator.wavelengths,
+                                                      worthOfLights(scene), sensor.channels())
+                  : nullptr),
         tracer(tracerFor({prepared, sensor, film, guide.get(), options})) {
     cursor = epochStart();
     forTiles([&](const Tile& tile) { tracer->prepare(tile); });

@@ -45,21 +45,46 @@ double varianceWithUniformLanes(const spectral::DomainSamples& worth, int lanes)
   return mean > 0 ? variance / (mean * mean) : 0.0;
 }
 
+/// Gives each channel as much of an importance as any other has, spread as it is there.
+/// @param shares  of each channel in what the importance counts, a row an element; no columns: nothing changes
+/// @return  with the same sum
+template <typename Importance, typename Shares>
+Importance balanced(const Importance& importance, const Shares& shares) {
+  Importance result = Importance::Zero();
+  Eigen::Index lit = 0;
+  for (Eigen::Index c = 0; c < shares.cols(); ++c) {
+    const Importance part = importance.cwiseProduct(shares.col(c));
+    if (const double sum = part.sum(); sum > 0) {
+      result += part / sum;
+      ++lit;
+    }
+  }
+  return lit > 0 ? Importance(result * (importance.sum() / static_cast<double>(lit))) : importance;
+}
+
 bool isEven(const spectral::DomainSamples& worth, int lanes) {
   return varianceWithUniformLanes(worth, lanes) < kLittleVariance;
 }
 
 }  // namespace
 
-WavelengthGuide::WavelengthGuide(int width, int height, int lanes, const spectral::DomainSamples& expected)
+WavelengthGuide::WavelengthGuide(int width, int height, int lanes, const spectral::DomainSamples& expected,
+                                 const Channels& channels)
     : m_side(isEven(expected, lanes) ? 2 : 1),
       m_width((width + m_side - 1) / m_side),
       m_height((height + m_side - 1) / m_side),
       m_lanes(lanes),
       m_expected(expected),
+      m_channels(channels),
       m_picture(expected),
       m_learnt(static_cast<std::size_t>(m_width) * static_cast<std::size_t>(m_height) * kBins),
-      m_hasOwn(m_learnt.size() / kBins) {}
+      m_hasOwn(m_learnt.size() / kBins) {
+  for (Eigen::Index cell = 0; cell < kCells; ++cell) {
+    if (const double worth = m_channels.row(cell).sum(); worth > 0) {
+      m_channels.row(cell) /= worth;
+    }
+  }
+}
 
 void WavelengthGuide::add(const Spectrum& spectrum) {
   const std::lock_guard lock(m_mutex);
@@ -85,6 +110,22 @@ spectral::DomainSamples WavelengthGuide::learntSpectrum() const {
     mixed[cell] = (paths * learnt[cell] + kExpectedPaths * scaled) / (paths + kExpectedPaths);
   }
   return mixed;
+}
+
+/// What the channels have of each bin, cells counting by what the whole picture has in them.
+void WavelengthGuide::shareOut(const spectral::DomainSamples& learnt) {
+  m_binShares = BinChannels::Zero(kBins, m_channels.cols());
+  Eigen::Matrix<double, kBins, 1> sums = Eigen::Matrix<double, kBins, 1>::Zero();
+  for (Eigen::Index cell = 0; cell < kCells; ++cell) {
+    const auto bin = static_cast<Eigen::Index>(binOf(static_cast<std::size_t>(cell)));
+    m_binShares.row(bin) += learnt[cell] * m_channels.row(cell);
+    sums[bin] += learnt[cell];
+  }
+  for (Eigen::Index bin = 0; bin < kBins; ++bin) {
+    if (sums[bin] > 0) {
+      m_binShares.row(bin) /= sums[bin];
+    }
+  }
 }
 
 void WavelengthGuide::sumBands() {
@@ -168,13 +209,15 @@ void WavelengthGuide::buildBlock(std::size_t block) {
     return;
   }
   const Bins learnt = smoothed(block);
+  const Eigen::Matrix<double, kBins, 1> drawn = balanced(Eigen::Matrix<double, kBins, 1>(learnt.data()), m_binShares);
   double distance = -1.0;
   double below = 0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     distance += learnt[bin] * learnt[bin] / m_learntByPicture[bin];
     m_below[block * kBins + bin] = static_cast<std::uint16_t>(std::floor(below * static_cast<double>(kUnits)));
     const auto share = static_cast<double>(kPictureShare);
-    below += share * static_cast<double>(m_pictureBelow[bin + 1] - m_pictureBelow[bin]) + (1.0 - share) * learnt[bin];
+    below += share * static_cast<double>(m_pictureBelow[bin + 1] - m_pictureBelow[bin]) +
+             (1.0 - share) * drawn[static_cast<Eigen::Index>(bin)];
   }
   m_hasOwn[block] = distance > kUnlike ? 1 : 0;
 }
@@ -183,7 +226,8 @@ void WavelengthGuide::build() {
   const spectral::DomainSamples learnt = learntSpectrum();
   m_isUniform = isEven(learnt, m_lanes);
   const WavelengthTable table(learnt);
-  m_picture = m_isUniform ? WavelengthTable(spectral::DomainSamples::Zero()) : table;
+  m_picture = WavelengthTable(m_isUniform ? spectral::DomainSamples::Zero().eval() : balanced(learnt, m_channels));
+  shareOut(learnt);
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     const auto first = static_cast<std::int32_t>(bin) * kCellsABin;
     const std::int32_t end = bin + 1 < kBins ? first + kCellsABin : kCells;

@@ -18,7 +18,9 @@ namespace metamer::spectral_ref {
 /// Wavelength densities learnt from first samples that are not part of the film (4.2.3, 4.2.4).
 ///
 /// What is learnt is how much each wavelength counts for luminance and the film's three responses together: w(lambda)
-/// F(lambda), with w = |y| + |r_1| + |r_2| + |r_3|. The chapter takes |y| alone, which starves the other channels.
+/// F(lambda), with w = |y| + |r_1| + |r_2| + |r_3|. The chapter takes |y| alone, which starves the other channels. What
+/// is drawn from is balanced: each of the four has a quarter of it, spread as its own light is, so that a channel in
+/// which a scene has little light is not left with few samples.
 ///
 /// The picture has one density by 1 nm: what its lights let expect, scaled to what arrives; uniform where evenly
 /// spaced, stratified lanes have little noise by wavelength anyhow. A block has a histogram of 20 bins of 20 nm,
@@ -35,9 +37,14 @@ class WavelengthGuide {
   /// 0.03 of the uniform one.
   static constexpr float kPictureShare = 0.3F;
 
+  /// Sensitivity of each of the channels that w is the sum of, a row a cell, none negative.
+  using Channels = Eigen::Matrix<double, kCells, Eigen::Dynamic>;
+
   /// @param lanes     that a path carries
   /// @param expected  importance of each cell before anything is learnt, on any scale
-  WavelengthGuide(int width, int height, int lanes, const spectral::DomainSamples& expected);
+  /// @param channels  that are balanced; none: what is learnt is drawn from as it is
+  WavelengthGuide(int width, int height, int lanes, const spectral::DomainSamples& expected,
+                  const Channels& channels = Channels(kCells, 0));
 
   /// Whether build() was called.
   bool isReady() const { return m_isReady; }
@@ -127,12 +134,14 @@ class WavelengthGuide {
 
   static constexpr int kBands = 5;
   using Bins = std::array<double, kBins>;
+  using BinChannels = Eigen::Matrix<double, kBins, Eigen::Dynamic>;
   using Bands = std::array<float, kBands>;  ///< of the spectrum, four bins each
   static std::size_t binOf(std::size_t cell) { return std::min(cell / kCellsABin, std::size_t{kBins - 1}); }
   std::size_t blockAt(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(m_width) + static_cast<std::size_t>(x);
   }
   spectral::DomainSamples learntSpectrum() const;
+  void shareOut(const spectral::DomainSamples& learnt);
   void sumBands();
   bool isUnlikePicture(std::size_t block) const;
   Bins smoothed(std::size_t block) const;
@@ -143,6 +152,8 @@ class WavelengthGuide {
   int m_height;  ///< blocks
   int m_lanes;
   spectral::DomainSamples m_expected;
+  Channels m_channels;      ///< each one's share of w
+  BinChannels m_binShares;  ///< mean share of w in a bin
   WavelengthTable m_picture;
   std::array<float, kBins + 1> m_pictureBelow{};  ///< the picture's distribution function at the edges of bins
   std::vector<float> m_learnt;                    ///< [block][bin]
