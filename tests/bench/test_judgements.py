@@ -15,6 +15,7 @@ REPOSITORY = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(REPOSITORY / "bench"))
 
 import defaults  # noqa: E402
+import render_scenes  # noqa: E402
 import report  # noqa: E402
 import targets  # noqa: E402
 from sections import compilers  # noqa: E402
@@ -103,9 +104,24 @@ class Compilers(unittest.TestCase):
         self.assertEqual(compilers.compare(np.array("aa"), np.array("ab")), (1, None))
 
 
+class Races(unittest.TestCase):
+    def test_the_best_of_ours_over_the_better_mitsuba(self):
+        def curve(seconds, error):
+            return [{"processor": 9, "error": [None, 9, None]}, {"processor": seconds, "error": [None, error, None]}]
+
+        curves = {"uniform": curve(2, 0.1), "guided": curve(1, 0.1), "Mitsuba a": curve(1, 0.4), "Mitsuba b": curve(2, 0.5)}
+        self.assertAlmostEqual(render_scenes.over_mitsuba({"curves": curves}), 0.25)
+        self.assertIsNone(render_scenes.over_mitsuba({"curves": {"uniform": curves["uniform"]}}))
+
+    def test_errors_count_over_what_is_there(self):
+        truth = np.array([1.0, 3.0])
+        self.assertAlmostEqual(render_scenes.relative_error(truth * 1.1, truth), 0.01, delta=3e-4)
+        self.assertGreater(render_scenes.relative_error(truth + 0.1, truth), render_scenes.relative_error(truth * 1.05, truth))
+
+
 class Fronts(unittest.TestCase):
     def test_a_panel_a_scene(self):
-        points = [{"seconds": 1, "mse": [0.2, 0.1, 0.2]}, {"seconds": 4, "mse": [0.1, 0.02, 0.1]}]
+        points = [{"processor": 1, "error": [0.2, 0.1, 0.2]}, {"processor": 4, "error": [0.1, 0.02, 0.1]}]
         noise = [{"scene": scene, "curves": {"uniform": points, "guided": points}} for scene in ("chart", "box")]
         results = {"transforms": {"figures": ROWS}}
         with tempfile.TemporaryDirectory() as folder:

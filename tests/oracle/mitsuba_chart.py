@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The chart scene of bench/render_scenes.py in Mitsuba: same geometry, spectra, camera and units.
 
-mitsuba_chart.py LAMP WIDTH HEIGHT SAMPLES VARIANT OUTPUT.npz
+mitsuba_chart.py LAMP WIDTH HEIGHT SAMPLES VARIANT DEPTH OUTPUT.npz
 """
 
 import csv
@@ -28,7 +28,7 @@ def chart(mi, center, half_u, half_v):
 
 
 def render(lamp, size, count, variant, depth=2, seed=0):
-    """Y (1 for a radiance of 1, as in metamer's films) and user CPU seconds of the render alone."""
+    """Y (1 for a radiance of 1, as in metamer's films); processor and wall seconds of the render alone."""
     use_newest_llvm()
     import mitsuba as mi
 
@@ -52,6 +52,6 @@ def render(lamp, size, count, variant, depth=2, seed=0):
 
 
 if __name__ == "__main__":
-    _lamp, _width, _height, _count, _variant, _output = sys.argv[1:]
-    _picture, _seconds = render(_lamp, (int(_width), int(_height)), int(_count), _variant)
-    np.savez(_output, picture=_picture, seconds=_seconds)
+    _lamp, _width, _height, _count, _variant, _depth, _output = sys.argv[1:]
+    _picture, _processor, _wall = render(_lamp, (int(_width), int(_height)), int(_count), _variant, int(_depth))
+    np.savez(_output, picture=_picture, processor=_processor, wall=_wall)

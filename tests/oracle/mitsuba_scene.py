@@ -5,6 +5,7 @@ import csv
 import os
 import re
 import resource
+import time
 from pathlib import Path
 
 import numpy as np
@@ -58,12 +59,18 @@ def picture_film(size):
             "component_format": "float32"}
 
 
+def processor_seconds():
+    """Of this process so far, user and system."""
+    usage = resource.getrusage(resource.RUSAGE_SELF)
+    return usage.ru_utime + usage.ru_stime
+
+
 def timed_render(mi, scene, variant, count, seed):
-    """Y (1 for a radiance of 1, as in metamer's films) and user CPU seconds of the render alone."""
+    """Y (1 for a radiance of 1, as in metamer's films); processor and wall seconds of the render alone."""
     loaded = mi.load_dict(scene)
     if "llvm" in variant:
         np.array(mi.render(loaded, spp=count, seed=seed))  # what is compiled once does not count
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_utime
+    before, start = processor_seconds(), time.perf_counter()
     picture = np.array(mi.render(loaded, spp=count, seed=seed + 1))
-    seconds = resource.getrusage(resource.RUSAGE_SELF).ru_utime - before
-    return picture[..., 1].astype(float) * CONSTANT, seconds
+    wall = time.perf_counter() - start
+    return picture[..., 1].astype(float) * CONSTANT, processor_seconds() - before, wall

@@ -4,7 +4,7 @@
 Its textures hold no mixtures of given spectra, so each pixel of the wall is an area light with a spectrum of its own,
 chosen in proportion to its luminance.
 
-mitsuba_wall.py PICTURE.exr WIDTH HEIGHT SAMPLES VARIANT OUTPUT.npz
+mitsuba_wall.py PICTURE.exr WIDTH HEIGHT SAMPLES VARIANT DEPTH OUTPUT.npz
 """
 
 import sys
@@ -36,7 +36,7 @@ def wall(mi, drives):
 
 
 def render(picture, size, count, variant, depth=2, seed=0):
-    """Y (1 for a radiance of 1, as in metamer's films) and user CPU seconds of the render alone."""
+    """Y (1 for a radiance of 1, as in metamer's films); processor and wall seconds of the render alone."""
     import OpenEXR
 
     use_newest_llvm()
@@ -66,6 +66,6 @@ def render(picture, size, count, variant, depth=2, seed=0):
 
 
 if __name__ == "__main__":
-    _file, _width, _height, _count, _variant, _output = sys.argv[1:]
-    _picture, _seconds = render(_file, (int(_width), int(_height)), int(_count), _variant)
-    np.savez(_output, picture=_picture, seconds=_seconds)
+    _file, _width, _height, _count, _variant, _depth, _output = sys.argv[1:]
+    _picture, _processor, _wall = render(_file, (int(_width), int(_height)), int(_count), _variant, int(_depth))
+    np.savez(_output, picture=_picture, processor=_processor, wall=_wall)
