@@ -11,7 +11,7 @@ namespace metamer::ofx {
 /// A render whose images are the host's buffers, done by the processor: what is read is brought here, what was rendered
 /// is written up. Waits for all that the queue holds.
 /// @throws OpenClError where the queue moves nothing
-void renderReadBack(const HostSuites& host, const OpenCl& library, OpenCl::Handle queue, const RenderJob& job,
+void renderReadBack(const HostSuites& host, const OpenCl& library, OpenCl::Handle queue, const RenderJob& given,
                     const std::function<bool()>& isAborted);
 
 }  // namespace metamer::ofx
