@@ -33,7 +33,7 @@ namespace {
 
 /// The file's name, once it is known to be none that its library would talk about.
 std::string checked(const std::filesystem::path& file) {
-  spectral::refuseBrokenPng(spectral::utf8(file));
+  spectral::requirePictureFile(spectral::utf8(file));
   return spectral::utf8(file);
 }
 

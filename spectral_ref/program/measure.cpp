@@ -14,6 +14,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/path_text.h"
+#include "metamer/spectral/png_check.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -50,6 +51,7 @@ std::vector<int> parseIntegers(const std::string& flag, const std::string& text,
 }
 
 PatchArea wholePicture(const std::string& file) {
+  spectral::requirePictureFile(file);
   const auto input = OIIO::ImageInput::open(file);
   if (!input) {
     const std::string reason = OIIO::geterror();

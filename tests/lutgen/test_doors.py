@@ -257,6 +257,27 @@ class Libraries(LutgenTest):
             picture.save(self.folder / name, icc_profile=srgb)
             self.assertEqual(lutgen("apply", "a.yaml", name, "b." + extension, folder=self.folder).returncode, 0)
 
+    def test_pictures_that_are_pipes_or_devices(self):
+        (self.folder / "r.yaml").write_text(RECIPE)
+        os.mkfifo(self.folder / "pipe.exr")
+        os.symlink("/dev/zero", self.folder / "zero.exr")
+        charts = ["--emitter-charts", "a.csv", "--scene-chart", "a.csv"]
+        (self.folder / "a.csv").write_text("patch,R,G,B\nwhite,1,1,1\n")
+        for name in ("pipe.exr", "zero.exr"):
+            for arguments in (
+                ["apply", "r.yaml", name, "out.exr"],
+                ["compare", name, name],
+                ["report", "r.yaml", "-o", "out.html", "--picture", name],
+                ["skin", "estimate", name, "-o", "out.exr"],
+                ["skin", "edit", name, "-o", "out.exr"],
+                ["stage", "environment", name, "-o", "out.exr", *charts],
+                ["stage", "sample", name, "--corners", "0,0", "9,0", "9,9", "0,9", "-o", "out.csv"],
+                ["uplift", name, "-o", "out.exr"],
+                ["bake", "--illuminant-in", name, "--illuminant-out", "A", "-o", "out.ctf"],
+            ):
+                with self.subTest(arguments):
+                    self.assertFails(*arguments, says=[f"{name}: is a folder, "])
+
     def test_broken_pngs(self):
         Image.fromarray(np.random.default_rng(1).integers(0, 255, (24, 32, 3), np.uint8)).save(self.folder / "whole.png")
         whole = (self.folder / "whole.png").read_bytes()

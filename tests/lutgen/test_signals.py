@@ -75,7 +75,6 @@ class Interrupted:
         program = SPECTRAL_REF if command[0] == "spectral_ref" else LUTGEN
         self.name, self.folder = name, folder
         self.command = [str(program), *command[program is SPECTRAL_REF:]]
-        self.may_leave = lambda path: path.endswith(".checkpoint")  # what a render goes on from
         self.order = random.Random(name)
         self.counts = {"stopped": 0, "done before": 0, "left all old files": 0, "new ones": 0}
         self.faults = []
@@ -112,7 +111,7 @@ class Interrupted:
         code, said = self.run(number, self.delay())
         before, now = self.folder.before, self.folder.tree()
         changed = [path for path in {**before, **now} if now.get(path, 0) != before.get(path, 0)]
-        changed = [path for path in changed if not self.may_leave(path)]
+        changed = [path for path in changed if not path.endswith(".checkpoint")]  # what a render goes on from
         faults = [f"{path} is not what it becomes" for path in changed if now.get(path, 0) != self.whole.get(path, 0)]
         if code == 0:
             faults += [f"{path} lacks" for path in self.whole if path not in now]

@@ -129,6 +129,11 @@ class Cases(unittest.TestCase):
                          "  - environment: {picture: pipe.exr}\n")
         os.mkfifo(self.folder / "pipe.exr")
         self.refused(scene, "pipe")
+        os.mkfifo(self.folder / "a.exr.checkpoint")
+        for arguments in (["merge", "pipe.exr", "pipe.exr", "-o", "a.exr"], ["measure", "pipe.exr"],
+                          ["render", CASES / "spike.yaml", "-o", "a.exr", "--resume"]):
+            result = subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True, timeout=60)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
 
 
 if __name__ == "__main__":

@@ -32,7 +32,7 @@ std::unique_ptr<ImageInput> opened(const std::string& file) {
   // Straight alpha, where the file has it, stays straight.
   ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
-  spectral::refuseBrokenPng(file);
+  spectral::requirePictureFile(file);
   auto input = ImageInput::open(file, &hints);
   if (!input) {
     throw InputError(file, "", "", "cannot be read: " + spectral::pictureReason(OIIO::geterror()));

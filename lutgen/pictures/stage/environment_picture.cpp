@@ -24,7 +24,7 @@ EnvironmentPicture::EnvironmentPicture(std::filesystem::path file) : m_file(std:
   if (!std::filesystem::exists(m_file, ignored)) {
     throw InputError(spectral::utf8(m_file), "", "", "is not there; check the path");
   }
-  spectral::refuseBrokenPng(spectral::utf8(m_file));
+  spectral::requirePictureFile(spectral::utf8(m_file));
   m_input = OIIO::ImageInput::open(spectral::utf8(m_file));
   if (!m_input) {
     throw InputError(spectral::utf8(m_file), "", "", "cannot be read: " + spectral::pictureReason(OIIO::geterror()));

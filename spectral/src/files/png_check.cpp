@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
 #include <vector>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/path_text.h"
 
 namespace metamer::spectral {
 namespace {
@@ -46,7 +48,12 @@ std::uint32_t bigEndian(const char* bytes) {
   return value;
 }
 
-void refuseBrokenPng(const std::string& file) {
+void requirePictureFile(const std::string& file) {
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(pathOf(file), none);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw InputError(file, "", "", "is a folder, pipe or device; name a picture file");
+  }
   std::ifstream stream(file, std::ios::binary);
   std::array<char, 8> head{};
   if (!stream.read(head.data(), head.size()) || std::string_view(head.data(), head.size()) != kPngSignature) {

@@ -13,6 +13,7 @@
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/png_check.h"
 #include "metamer/spectral/spectral_picture.h"
 
 namespace metamer::spectral_ref {
@@ -206,6 +207,7 @@ void writeExr(const Film& film, const FilmNotes& notes, const std::filesystem::p
 
 std::pair<Film, FilmNotes> readExrState(const std::filesystem::path& file) {
   const std::string where = spectral::utf8(file);
+  spectral::requirePictureFile(where);
   const auto input = OIIO::ImageInput::open(where);
   if (!input) {
     const std::string reason = OIIO::geterror();

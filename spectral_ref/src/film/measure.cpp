@@ -10,6 +10,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/path_text.h"
+#include "metamer/spectral/png_check.h"
 #include "metamer/spectral_ref/film.h"
 
 namespace metamer::spectral_ref {
@@ -21,6 +22,7 @@ using spectral::InputError;
 class PictureFile {
  public:
   explicit PictureFile(const std::filesystem::path& file) : m_where(spectral::utf8(file)) {
+    spectral::requirePictureFile(m_where);
     const auto input = OIIO::ImageInput::open(m_where);
     if (!input) {
       const std::string reason = OIIO::geterror();

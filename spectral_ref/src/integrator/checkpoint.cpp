@@ -88,8 +88,11 @@ void readCheckpoint(const std::filesystem::path& file, const std::function<void(
   constexpr const char* kDamaged = "is damaged or of another release; delete it and start again";
   std::error_code none;
   const std::uintmax_t whole = std::filesystem::file_size(file, none);
+  if (none) {
+    throw error(kUnreadable);  // a pipe too: it might never open
+  }
   std::ifstream stream(file, std::ios::binary);
-  if (none || !stream) {
+  if (!stream) {
     throw error(kUnreadable);
   }
   const auto read = [&](void* bytes, std::size_t size) {

@@ -31,12 +31,8 @@ struct Pixels {
 
 Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / spectral::pathOf(value.text());
-  std::error_code none;
-  if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) {
-    throw value.error("is a device, pipe or folder; give a picture file");
-  }
   try {
-    spectral::refuseBrokenPng(spectral::utf8(file));
+    spectral::requirePictureFile(spectral::utf8(file));
   } catch (const spectral::InputError& error) {
     throw value.error("", error.what());
   }
