@@ -2,6 +2,7 @@
 #include "overrides.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -17,7 +18,9 @@ namespace {
 
 using spectral::InputError;
 
-constexpr const char* kSceneForms = "natural, smooth, skin[:strength[:fade]], dataset:SET or pairs:FILE[:radius]";
+constexpr const char* kSceneForms =
+    "natural, smooth, skin[:strength[:fade]], dataset:SET, pairs:FILE[:radius], or as an uplift has it: smits, "
+    "mallett, jakob or meng";
 
 /// A name as it is; a file by its whole path, so that it is not looked for beside the recipe.
 std::string fromWorkingFolder(const std::string& nameOrFile, const std::vector<std::string>& names) {
@@ -77,7 +80,7 @@ double dial(const std::string& name, const std::string& text, double least, doub
   return *value;
 }
 
-/// natural | smooth | skin[:strength[:fade]] | dataset:SET | pairs:FILE[:radius]
+/// natural | smooth | skin[:strength[:fade]] | dataset:SET | pairs:FILE[:radius] | smits | mallett | jakob | meng
 sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::string>& names) {
   const std::string form = std::string("write ") + kSceneForms;
   std::vector<std::string> parts(1);
@@ -94,7 +97,12 @@ sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::strin
   const bool isDataset = parts[0] == "dataset";
   const bool isSkin = parts[0] == "skin";
   const bool hasPairs = parts[0] == "pairs";
-  const bool isKnown = isDataset || isSkin || hasPairs || parts[0] == "natural" || parts[0] == "smooth";
+  if (parts[0] == "otsu") {
+    throw InputError("--scene", "scene", text, sip::sceneKindRemedy(parts[0]));
+  }
+  const std::array<const char*, 6> alone = {"natural", "smooth", "smits", "mallett", "jakob", "meng"};
+  const bool isKnown =
+      isDataset || isSkin || hasPairs || std::find(alone.begin(), alone.end(), parts[0]) != alone.end();
   if (!isKnown ||
       parts.size() > (isSkin || hasPairs ? 3U
                       : isDataset        ? 2U

@@ -211,6 +211,12 @@ class Bake(LutgenTest):
             self.assertLess(surfaces["engine"], surfaces["plain_adaptation"], surfaces["set"])
         self.assertIn("measured surfaces that it does not know", (self.folder / "a.cube").read_text())
         self.assertGreater(certificate["error"]["count"], 40000)
+        run = lutgen("bake", *DAY_TO_TUNGSTEN, "--scene", "mallett", "--size", "9", "--certify", "full", "-o", "b.cube",
+                     folder=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        uplift = json.loads((self.folder / "b.cube.json").read_text())
+        self.assertEqual(uplift["recipe"]["scene"], {"kind": "mallett"})
+        self.assertEqual(len(uplift["surfaces"]["sets"]), len(certificate["surfaces"]["sets"]))
         self.assertEqual(lutgen("bake", *DAY_TO_TUNGSTEN, "--certify", "most", "-o", "b.cube", folder=self.folder).returncode, 2)
 
     def test_what_is_large_is_said_at_once(self):
@@ -294,6 +300,8 @@ class Bake(LutgenTest):
             ([*DAY_TO_TUNGSTEN, "--shaper", "linear"], ["shaper 'linear'", "is no curve", "ACEScct"]),
             (["--illuminant-in", "FL99", "--illuminant-out", "A"], ["illuminant 'FL99'", "FL9"]),
             ([*DAY_TO_TUNGSTEN, "--scene", "dataset:nothing"], ["nothing", "list reflectances"]),
+            ([*DAY_TO_TUNGSTEN, "--scene", "otsu"], ["otsu", "jumps", "jakob"]),
+            ([*DAY_TO_TUNGSTEN, "--scene", "jakob:1"], ["jakob:1", "smits, mallett, jakob or meng"]),
         ]:
             with self.subTest(arguments):
                 self.assertFails("bake", *arguments, "-o", "out.cube", says=says)

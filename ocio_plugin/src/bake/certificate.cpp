@@ -364,6 +364,10 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
     case sip::ReferenceScene::Kind::Dataset:
       add("scene.set", "reflectances", recipe.scene.set);
       break;
+    case sip::ReferenceScene::Kind::Smits:
+    case sip::ReferenceScene::Kind::Mallett:
+    case sip::ReferenceScene::Kind::Jakob:
+    case sip::ReferenceScene::Kind::Meng:
     case sip::ReferenceScene::Kind::Natural:
     case sip::ReferenceScene::Kind::Skin: {
       // All sets of the library, by one hash of theirs.
@@ -378,6 +382,9 @@ std::vector<CertifiedInput> certifiedInputs(const sip::Recipe& recipe, const spe
       spectral::Provenance provenance;
       provenance.name = isSkin ? "all measured reflectances, model skins and virtual skins"
                                : "all measured reflectances and model skins";
+      if (sip::upliftOf(recipe.scene.kind)) {
+        provenance.name = "the uplift " + sip::nameOf(recipe.scene.kind) + ", limited by all measured reflectances";
+      }
       provenance.sha256 = sha256(hashes);
       inputs.push_back(
           {recipe.scene.kind == sip::ReferenceScene::Kind::Pairs ? "scene.over" : "scene.set", std::move(provenance)});

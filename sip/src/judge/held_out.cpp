@@ -65,7 +65,9 @@ Seen seenBy(const TransformSpec& spec, const SpectralTransform& transform, const
 std::optional<HeldOutSet> judge(const TransformSpec& spec, const std::string& name, const Samples& heldOut) {
   TransformSpec rest = spec;
   rest.training = without(spec.training, heldOut);
-  rest.scene.samples = without(spec.scene.samples, heldOut);
+  if (!upliftOf(spec.scene.kind)) {  // which knows none of them
+    rest.scene.samples = without(spec.scene.samples, heldOut);
+  }
   rest.scene.skins = without(spec.scene.skins, heldOut);
   rest.scene.pairs = without(spec.scene.pairs, heldOut);
   rest.scene.pairNames = {};

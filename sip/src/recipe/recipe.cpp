@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/sip/recipe.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <set>
 #include <system_error>
 
+#include "metamer/sip/band_weights.h"
 #include "metamer/sip/pairs.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/naming_file.h"
@@ -87,7 +89,7 @@ RecipeScene readScene(const YamlSection& section) {
   try {
     scene.kind = sceneKindFromName(kind);
   } catch (const InputError&) {
-    throw section.error(*section.find("kind"), "scene.kind", kind, kSceneKindRemedy);
+    throw section.error(*section.find("kind"), "scene.kind", kind, sceneKindRemedy(kind));
   }
   section.read("set", scene.set);
   section.read("strength", scene.strength, 0.0, 1.0);
@@ -253,6 +255,24 @@ std::string toYaml(const Recipe& recipe) {
   return text + "keep_exposure: " + (recipe.keepExposure ? "true" : "false") + "\n";
 }
 
+namespace {
+
+/// The training surfaces under daylight, as an uplift takes colours.
+std::vector<Eigen::Vector3d> daylightColours(const TransformSpec& spec, const spectral::Uplift& uplift) {
+  const Eigen::Matrix3Xd weights =
+      bandWeights(spec.daylight->onDomain(), spec.standardObserver.onDomain(), kConvergedBandCount);
+  const double white = weights.row(1).sum();
+  const Eigen::Matrix3d rgbFromXyz = uplift.xyzFromRgb().inverse() / white;
+  std::vector<Eigen::Vector3d> colours;
+  colours.reserve(spec.training.size());
+  for (const spectral::DomainSamples& surface : spec.training) {
+    colours.emplace_back(rgbFromXyz * (weights * surface));
+  }
+  return colours;
+}
+
+}  // namespace
+
 TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library) {
   return resolve(recipe, library, lookUp(recipe, "space", [&] { return library.colourSpace(recipe.space).linear; }));
 }
@@ -273,7 +293,9 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
                                .pairs = {},
                                .pairNames = {},
                                .over = recipe.scene.over,
-                               .radius = recipe.scene.radius},
+                               .radius = recipe.scene.radius,
+                               .uplift = nullptr,
+                               .sampleColours = {}},
                      .training = measuredSurfaces(library),
                      .standardObserver = library.observer(kStandardObserver),
                      .balanced = recipe.balanced,
@@ -305,6 +327,14 @@ TransformSpec resolve(const Recipe& recipe, const spectral::DataLibrary& library
     case ReferenceScene::Kind::Natural:
       spec.scene.samples = spec.training;
       spec.scene.skins = modelSkins(library);
+      break;
+    case ReferenceScene::Kind::Smits:
+    case ReferenceScene::Kind::Mallett:
+    case ReferenceScene::Kind::Jakob:
+    case ReferenceScene::Kind::Meng:
+      spec.scene.uplift = spectral::makeUplift(*upliftOf(recipe.scene.kind), library);
+      spec.scene.samples = spec.training;
+      spec.scene.sampleColours = daylightColours(spec, *spec.scene.uplift);
       break;
   }
   // What is wrong with the two sides is known where the recipe's file is known.

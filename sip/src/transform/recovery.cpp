@@ -22,7 +22,7 @@ constexpr double kSkinShare = 0.8;
 /// Fewer skins have no covariance.
 constexpr std::size_t kFewestSkins = 4;
 
-using Scene = std::variant<std::monostate, MeasuredScene, DatasetScene>;
+using Scene = std::variant<std::monostate, MeasuredScene, DatasetScene, UpliftScene>;
 
 /// The kind of scene that is there beside pairs.
 ReferenceScene::Kind kindBesidePairs(const ReferenceScene& scene) {
@@ -96,6 +96,9 @@ Scene makeScene(const ReferenceScene& scene, const SoftBoundSolver& solver) {
   if (scene.kind == ReferenceScene::Kind::Dataset) {
     return DatasetScene(solver, samplesOnBands(scene.samples, solver.bandCount()));
   }
+  if (upliftOf(scene.kind)) {
+    return UpliftScene(solver, scene.uplift, samplesOnBands(scene.samples, solver.bandCount()), scene.sampleColours);
+  }
   const MeasuredSeeds seeds = seedsOf(scene, solver);
   return MeasuredScene(solver, seeds, skinOf(scene, solver, seeds));
 }
@@ -160,11 +163,13 @@ BandTriple Recovery::slope(const Eigen::Vector3d& response, const ClampedBands& 
     return m_solver.derivative(clamped);
   }
   BandTriple priorSlope = BandTriple::Zero(m_solver.bandCount(), 3);
-  if (const auto* scene = std::get_if<MeasuredScene>(&m_scene)) {
-    priorSlope = scene->local(response).slope;
-  } else if (const auto* triangles = std::get_if<DatasetScene>(&m_scene)) {
-    priorSlope = triangles->local(response).slope;
-  }
+  std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.local(response); }) {
+          priorSlope = kind.local(response).slope;
+        }
+      },
+      m_scene);
   if (m_pairs) {
     m_pairs->addTo(priorSlope, response);
   }

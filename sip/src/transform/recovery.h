@@ -11,6 +11,7 @@
 #include "pairs/pair_field.h"
 #include "scenes/dataset_scene.h"
 #include "scenes/measured_scene.h"
+#include "scenes/uplift_scene.h"
 #include "soft_bound/soft_bound_solver.h"
 
 namespace metamer::sip {
@@ -46,7 +47,7 @@ class Recovery {
   Eigen::MatrixXd sceneDeviations(const Eigen::Matrix3Xd& responses) const;
 
   SoftBoundSolver m_solver;
-  std::variant<std::monostate, MeasuredScene, DatasetScene> m_scene;
+  std::variant<std::monostate, MeasuredScene, DatasetScene, UpliftScene> m_scene;
   std::optional<PairField> m_pairs;
   mutable std::mutex m_mutex;
   mutable Eigen::Matrix3Xd m_trainingResponses;  // the latest

@@ -25,7 +25,8 @@ struct Held {
     return weights.cols() == otherWeights.cols() && weights == otherWeights && relaxation == otherRelaxation &&
            scene.kind == other.kind && scene.strength == other.strength && scene.samples == other.samples &&
            scene.skins == other.skins && scene.fade == other.fade && scene.virtualSkins == other.virtualSkins &&
-           scene.over == other.over && scene.radius == other.radius && scene.pairs == other.pairs;
+           scene.over == other.over && scene.radius == other.radius && scene.pairs == other.pairs &&
+           scene.sampleColours == other.sampleColours;
   }
 };
 

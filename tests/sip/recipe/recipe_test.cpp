@@ -243,7 +243,7 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
       {"adaptation out of range", "metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: A, adaptation: 1.01}\n",
        "r.yaml:3: output.adaptation '1.01': must be a number from 0 to 1"},
       {"unknown scene", with("scene: {kind: smoth}\n"),
-       "r.yaml:4: scene.kind 'smoth': must be natural, skin, pairs, smooth or dataset"},
+       "r.yaml:4: scene.kind 'smoth': must be natural, skin, pairs, smooth, dataset, smits, mallett, jakob or meng"},
       {"set for smooth", with("scene: {kind: smooth, set: skin}\n"),
        "r.yaml:4: scene.set 'skin': has a meaning with kind dataset or pairs alone; leave it out"},
       {"set for the default", with("scene: {set: skin}\n"),

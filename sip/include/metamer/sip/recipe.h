@@ -39,7 +39,7 @@ struct RecipeScene {
 ///     space: ACEScg
 ///     input:  {illuminant: D65, filters: [], observer: CIE 1931 2}
 ///     output: {illuminant: HP1, filters: [{file: gel.csv, density: 0.5}], observer: CIE 1931 2, adaptation: 0.0}
-///     scene:  {kind: natural}
+///     scene:  {kind: natural}  # or smooth, skin, dataset, pairs, smits, mallett, jakob, meng
 ///     cat: vonkries
 ///     balanced: vonkries
 ///

@@ -14,6 +14,7 @@
 #include "metamer/sip/scene_cache.h"
 #include "metamer/spectral/chromatic_adaptation.h"
 #include "metamer/spectral/rgb_space.h"
+#include "metamer/spectral/uplift.h"
 
 namespace metamer::sip {
 
@@ -37,6 +38,10 @@ struct ReferenceScene {
     Smooth,   ///< the smoothest spectrum
     Dataset,  ///< measured spectra, interpolated over triangles of chromaticities
     Pairs,    ///< another of these, and colours whose spectra are known: exact at them, and round them drawn to them
+    Smits,    ///< as each of the published uplifts has it (spectral::UpliftMethod), at one brightness
+    Mallett,
+    Jakob,
+    Meng,
   };
   Kind kind = Kind::Smooth;
   std::vector<spectral::DomainSamples> samples;            ///< reflectances; empty for Smooth
@@ -50,11 +55,17 @@ struct ReferenceScene {
   Kind over = Kind::Natural;                        ///< Pairs: Natural, Skin or Smooth, whose fields hold too
   /// Pairs: how far one is felt, in standard deviations of the measured surfaces' chromaticities under the light.
   double radius = kDefaultPairRadius;
+  std::shared_ptr<const spectral::Uplift> uplift = nullptr;  ///< Smits ... Meng: theirs
+  std::vector<Eigen::Vector3d> sampleColours = {};           ///< Smits ... Meng: the samples under D65, linear Rec.709
 };
 
-/// What a message says of any other name.
-inline constexpr const char* kSceneKindRemedy = "must be natural, skin, pairs, smooth or dataset";
-/// "natural", "skin", "smooth", "dataset", "pairs". @throws spectral::InputError for any other name (lists these)
+/// The published uplift that a scene is of, none where it is of metamer's own.
+std::optional<spectral::UpliftMethod> upliftOf(ReferenceScene::Kind kind);
+
+/// What a message says of a name that is no scene's: lists those that are.
+std::string sceneKindRemedy(const std::string& name);
+/// "natural", "skin", "smooth", "dataset", "pairs", "smits", "mallett", "jakob", "meng".
+/// @throws spectral::InputError for any other name, with sceneKindRemedy()
 ReferenceScene::Kind sceneKindFromName(const std::string& name);
 std::string nameOf(ReferenceScene::Kind kind);
 
