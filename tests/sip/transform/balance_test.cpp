@@ -209,14 +209,14 @@ TEST(BalanceTest, AnObserverThatIsNoCameraIsBalancedAsBradford) {
 
 TEST(BalanceTest, RefusesLightsOutOfReach) {
   EXPECT_EQ(errorOf([] { SpectralTransform(specWith(balancedBy("bradford"), "{illuminant: LPS}")); }),
-            "LPS: balanced 'bradford': does not reach this light (no response in one channel); use vonkries");
+            "r.yaml: LPS: balanced 'bradford': does not reach this light (no response in one channel); use vonkries");
   EXPECT_EQ(errorOf([] { SpectralTransform(specWith("space: Rec.709\n" + balancedBy("rgb"), "{illuminant: HP1}")); }),
-            "HP1: balanced 'rgb': does not reach this light (no response in one channel); use vonkries");
+            "r.yaml: HP1: balanced 'rgb': does not reach this light (no response in one channel); use vonkries");
   EXPECT_EQ(errorOf([] {
               SpectralTransform(specWith("cat: bradford\n" + balancedBy("vonkries"), "{illuminant: LPS}",
                                          "{illuminant: D65, adaptation: 0}"));
             }),
-            "LPS: cat 'bradford': does not reach this light (no response in one cone); use vonkries");
+            "r.yaml: LPS: cat 'bradford': does not reach this light (no response in one cone); use vonkries");
   TransformSpec spec = specWith(balancedBy("camera"), side("A", "camera"));
   spec.daylight.reset();
   EXPECT_EQ(errorOf([&] { SpectralTransform{spec}; }),
