@@ -104,7 +104,9 @@ std::vector<JobText> slurmScripts(const FarmJob& job, const std::filesystem::pat
     const std::string name = spectral::lowerCase(step.name);
     texts.push_back({name + ".sh", scriptOf(job, step, folder)});
     submit += name + "=$(sbatch --parsable " +
-              (step.after.empty() ? "" : "--dependency=\"afterok:$" + spectral::lowerCase(step.after) + "\" ") +
+              (step.after.empty()
+                   ? ""
+                   : "--dependency=\"afterok:$" + spectral::lowerCase(step.after) + "\" --kill-on-invalid-dep=yes ") +
               "\"$@\" " + name + ".sh)\n";
     submit += "echo \"" + step.name + ": job $" + name + "\"\n";
   }

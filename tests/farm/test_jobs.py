@@ -68,7 +68,7 @@ class Render(JobTest):
         self.job("--chunks", 4, "--slurm", "job", "--", "--restir", "lanes", "--threads", 1)
         scripts = {name: (self.folder / "job" / name).read_text() for name in ("render.sh", "merge.sh", "submit.sh")}
         self.assertIn("#SBATCH --array=0-3\n", scripts["render.sh"])
-        self.assertIn('--dependency="afterok:$render"', scripts["submit.sh"])
+        self.assertIn('--dependency="afterok:$render" --kill-on-invalid-dep=yes', scripts["submit.sh"])
         # Without its parts the merge says what is missing, and writes nothing.
         self.refused("bash", "job/merge.sh", says="part.0-16.exr", code=1)
         for task in range(4):
@@ -81,7 +81,7 @@ class Render(JobTest):
         fake.chmod(0o755)
         self.run_in("sh", "job/submit.sh", "-p", "night", env={**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"})
         self.assertEqual((self.folder / "job/calls").read_text().splitlines(),
-                         ["--parsable -p night render.sh", "--parsable --dependency=afterok:1 -p night merge.sh"])
+                         ["--parsable -p night render.sh", "--parsable --dependency=afterok:1 --kill-on-invalid-dep=yes -p night merge.sh"])
 
     def test_resumed_by_name(self):
         part = ["render", "scene.yaml", "-o", "part.exr", "--samples", "0:16", "--resume"]
