@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/spectral/correlated_colour_temperature.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,9 @@ using Curves = Eigen::Matrix<double, kDomainSize, 3>;
 constexpr double kFirstMired = 10;   // 100000 K
 constexpr double kLastMired = 1000;  // 1000 K
 constexpr int kSteps = 198;
+/// Of these one is looked at first, then all round the nearest: the distance has one least value, but for colours far
+/// from the locus.
+constexpr int kStride = 9;
 constexpr double kStepMired = (kLastMired - kFirstMired) / kSteps;
 constexpr int kBisections = 60;
 
@@ -57,16 +61,20 @@ CorrelatedColourTemperature correlatedColourTemperature(const Eigen::Vector3d& x
                                                         const Eigen::Matrix<double, 401, 3>& observer1931) {
   const Eigen::Vector2d target = uv1960(xyz);
 
-  double best = kFirstMired;
-  double bestDistance = std::numeric_limits<double>::infinity();
-  for (int step = 0; step <= kSteps; ++step) {
-    const double mired = kFirstMired + step * kStepMired;
-    const double distance = (locusAt(mired, observer1931).uv - target).squaredNorm();
-    if (distance < bestDistance) {
-      bestDistance = distance;
-      best = mired;
+  int nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](int first, int last, int stride) {
+    for (int step = first; step <= last; step += stride) {
+      const double distance = (locusAt(kFirstMired + step * kStepMired, observer1931).uv - target).squaredNorm();
+      if (distance < least) {
+        least = distance;
+        nearest = step;
+      }
     }
-  }
+  };
+  look(0, kSteps, kStride);
+  look(std::max(nearest - kStride + 1, 0), std::min(nearest + kStride - 1, kSteps), 1);
+  const double best = kFirstMired + nearest * kStepMired;
 
   // The nearest point is where the tangent stands square on the line to the target: a sign change to bisect, exact to
   // rounding where the distance itself is flat.
