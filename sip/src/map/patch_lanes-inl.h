@@ -37,22 +37,10 @@ constexpr float kSmallest = std::numeric_limits<float>::min();
 constexpr float kBelowTwo = 2.0F - std::numeric_limits<float>::epsilon();
 constexpr int kMantissaBits = 23;
 
-/// a * b + c, rounded once.
+#if !HWY_NATIVE_FMA && HWY_TARGET != HWY_WASM
+/// fused(), for processors of before 2013. A call each time: their kernels would be larger than all others together.
 template <typename Vector>
-HWY_INLINE Vector fused(Vector a, Vector b, Vector c) {
-#if HWY_NATIVE_FMA
-  return hn::MulAdd(a, b, c);
-#elif HWY_TARGET == HWY_WASM
-  // As fusedInDouble(), but unchecked: off by at most one unit in the last place, once in 2^28 times.
-  const auto half = [](v128_t x, v128_t y, v128_t z) {
-    return wasm_f32x4_demote_f64x2_zero(
-        wasm_f64x2_add(wasm_f64x2_mul(wasm_f64x2_promote_low_f32x4(x), wasm_f64x2_promote_low_f32x4(y)),
-                       wasm_f64x2_promote_low_f32x4(z)));
-  };
-  const auto high = [](v128_t x) { return wasm_i32x4_shuffle(x, x, 2, 3, 2, 3); };
-  const v128_t low = half(a.raw, b.raw, c.raw);
-  return Vector{wasm_i32x4_shuffle(low, half(high(a.raw), high(b.raw), high(c.raw)), 0, 1, 4, 5)};
-#else  // processors of before 2013
+HWY_NOINLINE Vector fusedByLanes(Vector a, Vector b, Vector c) {
   const hn::DFromV<Vector> d;
   HWY_ALIGN std::array<float, kMostLanes> x;
   HWY_ALIGN std::array<float, kMostLanes> y;
@@ -71,6 +59,26 @@ HWY_INLINE Vector fused(Vector a, Vector b, Vector c) {
     }
   }
   return hn::Load(d, result.data());
+}
+#endif
+
+/// a * b + c, rounded once.
+template <typename Vector>
+HWY_INLINE Vector fused(Vector a, Vector b, Vector c) {
+#if HWY_NATIVE_FMA
+  return hn::MulAdd(a, b, c);
+#elif HWY_TARGET == HWY_WASM
+  // As fusedInDouble(), but unchecked: off by at most one unit in the last place, once in 2^28 times.
+  const auto half = [](v128_t x, v128_t y, v128_t z) {
+    return wasm_f32x4_demote_f64x2_zero(
+        wasm_f64x2_add(wasm_f64x2_mul(wasm_f64x2_promote_low_f32x4(x), wasm_f64x2_promote_low_f32x4(y)),
+                       wasm_f64x2_promote_low_f32x4(z)));
+  };
+  const auto high = [](v128_t x) { return wasm_i32x4_shuffle(x, x, 2, 3, 2, 3); };
+  const v128_t low = half(a.raw, b.raw, c.raw);
+  return Vector{wasm_i32x4_shuffle(low, half(high(a.raw), high(b.raw), high(c.raw)), 0, 1, 4, 5)};
+#else
+  return fusedByLanes(a, b, c);
 #endif
 }
 

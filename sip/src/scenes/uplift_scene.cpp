@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes/uplift_scene.h"
 
-#include <Eigen/QR>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -22,17 +22,18 @@ constexpr double kStep = 1e-3;
 Eigen::Matrix3d daylightFromResponses(const Eigen::Matrix3Xd& responses, const std::vector<Eigen::Vector3d>& colours) {
   Eigen::Matrix<double, 2, 3> differences;
   differences << 1.0, -1.0, 0.0, 0.0, 1.0, -1.0;
-  Eigen::MatrixX2d known(responses.cols(), 2);
-  Eigen::MatrixX3d wanted(responses.cols(), 3);
+  // Normal equations of what differs by two differences.
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
   for (Eigen::Index k = 0; k < responses.cols(); ++k) {
     // Each surface counts alike, however dark.
     const Eigen::Vector3d response = responses.col(k);
     const double size = std::max(response.cwiseAbs().maxCoeff(), 1e-9);
-    known.row(k) = (differences * response / size).transpose();
-    wanted.row(k) = ((colours[static_cast<std::size_t>(k)] - response) / size).transpose();
+    const Eigen::Vector2d known = differences * response / size;
+    square += known * known.transpose();
+    right += (colours[static_cast<std::size_t>(k)] - response) / size * known.transpose();
   }
-  const Eigen::Matrix<double, 2, 3> solved = known.colPivHouseholderQr().solve(wanted);
-  return Eigen::Matrix3d::Identity() + solved.transpose() * differences;
+  return Eigen::Matrix3d::Identity() + right * square.inverse() * differences;
 }
 
 /// Band centres from a table that is linear between its wavelengths and held beyond them.
