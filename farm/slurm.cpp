@@ -39,6 +39,7 @@ std::string textOf(const Word& word) {
   return text + "\"";
 }
 
+/// Comments of sbatch end a value at white space unless it is quoted.
 std::string directive(const std::string& text) {
   return "#SBATCH " + text + "\n";
 }

@@ -2,7 +2,6 @@
 #include "overrides.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -94,24 +93,21 @@ sip::RecipeScene sceneFrom(const std::string& text, const std::vector<std::strin
   if (parts[0] == "prior") {
     throw InputError("--scene", "scene", text, "prior is gone: natural and skin took its place; " + form);
   }
-  const bool isDataset = parts[0] == "dataset";
-  const bool isSkin = parts[0] == "skin";
-  const bool hasPairs = parts[0] == "pairs";
-  if (parts[0] == "otsu") {
-    throw InputError("--scene", "scene", text, sip::sceneKindRemedy(parts[0]));
+  sip::RecipeScene scene;
+  try {
+    scene.kind = sip::sceneKindFromName(parts[0]);
+  } catch (const InputError&) {
+    throw InputError("--scene", "scene", text, parts[0] == "otsu" ? sip::sceneKindRemedy(parts[0]) : form);
   }
-  const std::array<const char*, 6> alone = {"natural", "smooth", "smits", "mallett", "jakob", "meng"};
-  const bool isKnown =
-      isDataset || isSkin || hasPairs || std::find(alone.begin(), alone.end(), parts[0]) != alone.end();
-  if (!isKnown ||
-      parts.size() > (isSkin || hasPairs ? 3U
+  const bool isDataset = scene.kind == sip::ReferenceScene::Kind::Dataset;
+  const bool isSkin = scene.kind == sip::ReferenceScene::Kind::Skin;
+  const bool hasPairs = scene.kind == sip::ReferenceScene::Kind::Pairs;
+  if (parts.size() > (isSkin || hasPairs ? 3U
                       : isDataset        ? 2U
                                          : 1U) ||
       ((isDataset || hasPairs) && parts.size() < 2) || parts.back().empty()) {
     throw InputError("--scene", "scene", text, form);
   }
-  sip::RecipeScene scene;
-  scene.kind = sip::sceneKindFromName(parts[0]);
   if (isDataset || hasPairs) {
     scene.set = fromWorkingFolder(parts[1], names);
     if (parts.size() > 2) {

@@ -82,4 +82,12 @@ class OpenClError : public std::runtime_error {
   OpenCl::Status m_status;
 };
 
+/// What the driver tells of a buffer or queue. @throws OpenClError, with the name of the `asking`, where it does not
+template <typename Value>
+Value openClInfo(decltype(OpenCl::bufferInfo) info, OpenCl::Handle of, std::uint32_t what, const char* asking) {
+  Value value{};
+  OpenClError::check(info(of, what, sizeof value, &value, nullptr), asking);
+  return value;
+}
+
 }  // namespace metamer::ofx

@@ -6,12 +6,7 @@
 namespace metamer::ofx {
 namespace {
 
-template <typename Value>
-Value told(const OpenCl& library, OpenCl::Handle buffer, std::uint32_t what) {
-  Value value{};
-  OpenClError::check(library.bufferInfo(buffer, what, sizeof value, &value, nullptr), "asking for a buffer");
-  return value;
-}
+constexpr const char* kAsking = "asking for a buffer";
 
 /// Where a buffer lies in memory of its own: a part of another, or all of itself.
 struct Extent {
@@ -21,9 +16,10 @@ struct Extent {
 };
 
 Extent extentOf(const OpenCl& library, OpenCl::Handle buffer) {
-  const auto bytes = told<std::size_t>(library, buffer, OpenCl::kBufferBytes);
-  const auto parent = told<OpenCl::Handle>(library, buffer, OpenCl::kBufferParent);
-  const std::size_t begin = parent == nullptr ? 0 : told<std::size_t>(library, buffer, OpenCl::kBufferOffset);
+  const auto bytes = openClInfo<std::size_t>(library.bufferInfo, buffer, OpenCl::kBufferBytes, kAsking);
+  const auto parent = openClInfo<OpenCl::Handle>(library.bufferInfo, buffer, OpenCl::kBufferParent, kAsking);
+  const std::size_t begin =
+      parent == nullptr ? 0 : openClInfo<std::size_t>(library.bufferInfo, buffer, OpenCl::kBufferOffset, kAsking);
   return {parent == nullptr ? buffer : parent, begin, begin + bytes};
 }
 
@@ -39,7 +35,7 @@ OpenClImage openClImage(const OpenCl& library, const PixelView& view) {
                              static_cast<std::ptrdiff_t>(view.format.bytesPerPixel());
   image.origin = view.rowBytes < 0 ? -below * view.rowBytes : 0;
   const auto bytes = static_cast<std::size_t>(below * std::abs(view.rowBytes) + row);
-  if (bytes > told<std::size_t>(library, image.buffer, OpenCl::kBufferBytes)) {
+  if (bytes > openClInfo<std::size_t>(library.bufferInfo, image.buffer, OpenCl::kBufferBytes, kAsking)) {
     throw HostError(kOfxStatErrImageFormat, "an image with rows beyond its buffer");
   }
   return image;

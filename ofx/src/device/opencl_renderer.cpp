@@ -13,6 +13,7 @@ namespace {
 
 /// Work items that run together, where the device has as many.
 constexpr std::size_t kGroup = 64;
+constexpr const char* kAsking = "asking the queue";
 
 const char* nameOf(const DeviceForm& form) {
   switch (form.kernel) {
@@ -59,14 +60,6 @@ std::shared_ptr<const Tables> tablesAt(const OpenCl& library, OpenCl::Handle con
     return std::make_shared<const Tables>(uploaded(library, context, tables.nodes),
                                           uploaded(library, context, tables.cells));
   }));
-}
-
-template <typename Value>
-Value told(OpenCl::Status (*info)(OpenCl::Handle, std::uint32_t, std::size_t, void*, std::size_t*),
-           OpenCl::Handle queue, std::uint32_t what) {
-  Value value{};
-  OpenClError::check(info(queue, what, sizeof value, &value, nullptr), "asking the queue");
-  return value;
 }
 
 Window windowOf(const RenderJob& job, const OfxRectI& area) {
@@ -133,8 +126,8 @@ bool OpenClRenderer::enqueue(OpenCl::Handle queue, const RenderJob& job) {
   if (!isUsual) {
     return false;
   }
-  const auto context = told<OpenCl::Handle>(library.queueInfo, queue, OpenCl::kQueueContext);
-  const auto device = told<OpenCl::Handle>(library.queueInfo, queue, OpenCl::kQueueDevice);
+  const auto context = openClInfo<OpenCl::Handle>(library.queueInfo, queue, OpenCl::kQueueContext, kAsking);
+  const auto device = openClInfo<OpenCl::Handle>(library.queueInfo, queue, OpenCl::kQueueDevice, kAsking);
   const OpenCl::Owned kernel = m_programs.kernel(context, device, nameOf(*form));
   if (kernel == nullptr) {
     return false;

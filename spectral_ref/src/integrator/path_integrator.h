@@ -83,7 +83,7 @@ class PathIntegrator {
   }
 
   /// The diffuse surface that a camera ray sees, if it sees one.
-  bool receiver(Ray ray, Receiver& seen) const {
+  bool receiver(Ray ray, LitPoint& seen) const {
     Hit hit;
     while (m_prepared.shapes.intersect(ray, hit)) {
       if (!m_prepared.materials.isGel(hit.material)) {

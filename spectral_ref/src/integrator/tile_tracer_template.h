@@ -151,7 +151,7 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
 
   /// The light cuts of the tile's blocks.
   void prepare(const Tile& tile) override {
-    std::vector<Receiver> receivers;
+    std::vector<LitPoint> receivers;
     for (int y = tile.y0; y < tile.y1; y += m_blockSide) {
       for (int x = tile.x0; x < tile.x1; x += m_blockSide) {
         receivers.clear();
@@ -159,7 +159,7 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
           // The centres of the block's quarters.
           const float px = static_cast<float>(x) + static_cast<float>(m_blockSide) * (i % 2 == 0 ? 0.25F : 0.75F);
           const float py = static_cast<float>(y) + static_cast<float>(m_blockSide) * (i / 2 == 0 ? 0.25F : 0.75F);
-          Receiver receiver;
+          LitPoint receiver;
           if (this->m_integrator.receiver(this->m_context.prepared.camera.ray(px, py), receiver)) {
             receivers.push_back(receiver);
           }

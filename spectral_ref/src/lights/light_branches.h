@@ -9,13 +9,6 @@
 
 namespace metamer::spectral_ref {
 
-/// A point that is to be lit.
-struct LitPoint {
-  Vec3 place = Vec3::Zero();
-  Vec3 normal = Vec3::UnitZ();
-  bool isTwoSided = false;  ///< whether light from behind counts as well
-};
-
 /// A light tree with eight children a node, laid out for vector lanes: a light is drawn by what it may give to a point,
 /// from the root down, among eight branches at a time.
 class LightBranches {

@@ -27,7 +27,7 @@ bool LightCuts::isWide(const LightTree::Node& node, const Vec3& place) {
 LightCuts::LightCuts(const LightTree& tree, std::size_t blocks)
     : m_tree(tree), m_headers(blocks), m_clusters(blocks * kClusters) {}
 
-void LightCuts::build(std::size_t block, const std::vector<Receiver>& receivers) {
+void LightCuts::build(std::size_t block, const std::vector<LitPoint>& receivers) {
   assert(receivers.size() <= kReceivers);
   Header& header = m_headers[block];
   const auto memberOf = [&](std::uint32_t index) {

@@ -9,12 +9,6 @@
 
 namespace metamer::spectral_ref {
 
-/// A point with its normal that is to be lit.
-struct Receiver {
-  Vec3 place;
-  Vec3 normal;
-};
-
 /// For each block of pixels, how likely each light is to be a candidate of resampling there: a cut through the light
 /// tree, deeper where more light comes from (Walter et al. 2005, Lightcuts), by what lights give to points that the
 /// block sees.
@@ -32,7 +26,7 @@ class LightCuts {
 
   /// Makes the cut of a block. Not two threads at one block.
   /// @param receivers  at most kReceivers; none: lights by intensity
-  void build(std::size_t block, const std::vector<Receiver>& receivers);
+  void build(std::size_t block, const std::vector<LitPoint>& receivers);
 
   struct Choice {
     std::uint32_t light;

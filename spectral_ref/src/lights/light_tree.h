@@ -8,6 +8,13 @@
 
 namespace metamer::spectral_ref {
 
+/// A point that is to be lit.
+struct LitPoint {
+  Vec3 place = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();
+  bool isTwoSided = false;  ///< whether light from behind counts as well
+};
+
 /// Where a light lies and where it shines: enough to bound what it gives a receiver.
 struct LightBounds {
   Vec3 least = Vec3::Zero();  ///< box around it; infinitely far: around the unit vectors towards it
