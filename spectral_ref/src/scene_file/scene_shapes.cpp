@@ -16,7 +16,7 @@ using Use = SceneSpectra::Use;
 constexpr double kLargestLength = 1e9;
 
 Rectangle readPlace(const SceneSection& section) {
-  const char* remedy = "is missing; a rectangle has center, half_u and half_v";
+  const char* remedy = "is missing; a rectangle has 'center', half_u and half_v";
   Rectangle rectangle;
   rectangle.center = section.require("center", remedy).vector();
   rectangle.halfU = section.require("half_u", remedy).vector();
@@ -37,8 +37,9 @@ void readRectangle(const SceneValue& place, const SceneSection& shape, SceneSpec
 void readSphere(const SceneValue& place, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
   const SceneSection section(place, {"center", "radius"});
   Sphere sphere;
-  sphere.center = section.require("center", "is missing; a sphere has center and radius").vector();
-  sphere.radius = section.require("radius", "is missing; a sphere has center and radius").number(1e-9, kLargestLength);
+  sphere.center = section.require("center", "is missing; a sphere has 'center' and radius").vector();
+  sphere.radius =
+      section.require("radius", "is missing; a sphere has 'center' and radius").number(1e-9, kLargestLength);
   sphere.surface = readSurface(shape, spectra, scene);
   scene.spheres.push_back(sphere);
 }
