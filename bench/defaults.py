@@ -48,11 +48,11 @@ def markdown(rows):
     found = beaten(rows)
     lines = ["Cheaper (faster beyond noise, and no larger) and more accurate (p99) than the default in the same place: " +
              ("; ".join(f"{name} than {default} ({pair})" for pair, default, name in found) or "none") +
-             ". Defaults: map 0.09, 251 bands, a chain of 65 nodes, fitted cubes of 33, with and without a 1-D shaper."]
+             ". Defaults: map 0.09, 251 bands, a `.ctf` of 65 nodes, fitted cubes of 33, with and without a 1-D shaper."]
     larger = [(pair, default, row) for pair, default, row in faster_and_more_accurate(rows) if row["bytes"] > default["bytes"]]
     if larger:
         lines += ["", "Faster in this run and more accurate, but larger: " +
                   "; ".join(f"{row['label']} than {default['label']}, {row['bytes'] / default['bytes']:.1f} times its size ({pair})"
                             for pair, default, row in larger) +
-                  ". A cube of 65 is asked for by --size 65; many programs, monitors and cameras take no more than 33."]
+                  ". A cube of 65 takes `--size 65`; many programs, monitors and cameras take no more than 33."]
     return lines

@@ -18,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import fronts  # noqa: E402
 import targets  # noqa: E402
+import words  # noqa: E402
 
 # Section: title, page of docs/ it stands on.
 SECTIONS = {
@@ -55,10 +56,10 @@ PAGES = {
 def section_markdown(name, result, heading, pictures=None):
     """Lines of one section. `pictures`: link prefix of plots, where they are to be shown."""
     section = importlib.import_module(f"sections.{name}")
-    lines = ["", "#" * heading + " " + SECTIONS[name][0], ""]
-    lines += section.markdown(result["figures"])
+    lines = ["", "#" * heading + " " + SECTIONS[name][0], "", words.opening(name, result["figures"])]
     if pictures is not None and hasattr(section, "plot"):
-        lines += ["", f"![{SECTIONS[name][0]}]({pictures}{name}.png)"]
+        lines += ["", f"![{SECTIONS[name][0]}]({pictures}{name}.png)", "", f"*{words.CAPTIONS[name]}*"]
+    lines += ["", *words.folded([words.plain(line) for line in section.markdown(result["figures"])])]
     older = f"Release {result['release']}; " if "release" in result else ""
     return lines + ["", f"*{older}{result['machine']}; OpenColorIO {result['ocio']}; script/bench --only {name}.*"]
 
@@ -161,21 +162,21 @@ def write(results, folder):
 
 
 def target_markdown(results, sections):
-    return ["## Asked and reached", "", *targets.markdown(results, sections)]
+    return ["## Goals", "", *targets.verdict(results, sections), "", *words.folded(targets.markdown(results, sections), "All goals")]
 
 
 def page(results, name):
     """One page of docs/, as text."""
     title, opening = PAGES[name]
     lines = [f"# {title}", "", opening, "", "Written by bench/report.py from [bench.json](bench.json); "
-             "`script/bench` measures anew. At the end: [what was asked, and what is reached](#asked-and-reached)."]
+             "`script/bench` measures anew. Tables are folded: a click opens them. At the end: [the goals, and which are missed](#goals)."]
     # Sections that an older release measured say so.
     releases = sorted({result["release"] for result in results.values() if "release" in result})
     if releases:
         lines += ["", f"**What says release {', '.join(releases)} below it is of that release**: the engine has been replaced since "
                   "([engine.md](engine.md)), and it is to be measured anew."]
     if fronts.sources(results):
-        lines += ["", f"![The fronts](images/bench_{fronts.PICTURE})"]
+        lines += ["", f"![The fronts](images/bench_{fronts.PICTURE})", "", f"*{fronts.CAPTION}*"]
     for section, result in ordered(results).items():
         if SECTIONS[section][1] == name:
             lines += section_markdown(section, result, 2, "images/bench_")

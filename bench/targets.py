@@ -142,10 +142,10 @@ MEMORY = "the film's exact sums and the reservoirs of two progressions are most 
 
 TARGETS = (
     Target("solver", "smoothest spectrum within 0 and 1, 81 bands, µs", "<=", 10, _solve),
-    Target("solver", "exact engine, 81 bands, scene natural, photographs, µs a colour", "<=", 6, lambda f: _engine(f, "natural")),
-    Target("solver", "exact engine, 81 bands, scene smooth, photographs, µs a colour", "<=", 1.5, lambda f: _engine(f, "smooth")),
+    Target("solver", "exact engine, 81 bands, scene natural, photographs, µs per colour", "<=", 6, lambda f: _engine(f, "natural")),
+    Target("solver", "exact engine, 81 bands, scene smooth, photographs, µs per colour", "<=", 1.5, lambda f: _engine(f, "smooth")),
     Target("solver", "times as fast as colour-science's Meng 2015", ">=", 1e5, _meng),
-    *(Target("uplifts", f"uplift {name}, ns a colour", "<=", asked, lambda f, n=name: _uplift_time(f, n), reason)
+    *(Target("uplifts", f"uplift {name}, ns per colour", "<=", asked, lambda f, n=name: _uplift_time(f, n), reason)
       for name, asked, reason in (("mallett", 30, "two wavelengths at a time: built for every x86-64"), ("smits", 100, ""),
                                   ("otsu", 100, ""), ("jakob", 5000, ""),
                                   ("jakob table, coefficients", 60, "eight nodes of a table larger than the caches"))),
@@ -201,7 +201,7 @@ TARGETS = (
            _choice("a room", ("by place", "ReSTIR, hero", "ReSTIR, lanes")), ROOM),
     Target("renderer", "peak memory, 1920×1080, guiding, ReSTIR, 16 bins, MiB", "<=", 1536, lambda f: f["memory_mib"],
            MEMORY),
-    Target("transforms", "chain of 65 nodes, ±10 stops, D65 to A, HP1, FL11, p99, largest", "<=", 0.5, _chain("p99"), STEEP),
+    Target("transforms", ".ctf of 65 nodes, ±10 stops, D65 to A, HP1, FL11, p99, largest", "<=", 0.5, _chain("p99"), STEEP),
     Target("transforms", "the same, max", "<=", 3, _chain("max"), STEEP),
     Target("transforms", "cheaper choices that are more accurate than a default", "<=", 0, lambda f: len(defaults.beaten(f)),
            "the default wants changing"),
@@ -226,17 +226,31 @@ def _number(value):
     return f"{value:,.0f}" if math.isfinite(value) and value == int(value) else f"{value:.3g}"
 
 
+def _judged(results, sections):
+    return [(t, t.measured(results[t.section]["figures"]) if t.section in results else None) for t in TARGETS if t.section in sections]
+
+
+def _bound(target):
+    return f"{'≤' if target.sense == '<=' else '≥'} {_number(target.bound)}"
+
+
+def verdict(results, sections):
+    """In words: how many of these sections' targets are met, and which are missed."""
+    rows = _judged(results, sections)
+    unmeasured = sum(value is None for _, value in rows)
+    missed = [(t, value) for t, value in rows if value is not None and not t.holds(value)]
+    lines = [f"{len(rows) - unmeasured - len(missed)} of {len(rows)} are met" + (f", {unmeasured} not measured" if unmeasured else "") + "."
+             + (" Missed:" if missed else "")]
+    if missed:
+        lines.append("")
+    return lines + [f"- {t.what}: {_number(value)}, where the goal is {_bound(t)}" + (f" ({t.reason})" if t.reason else "") for t, value in missed]
+
+
 def markdown(results, sections):
     """Table of the targets of these sections."""
-    rows = [(t, t.measured(results[t.section]["figures"]) if t.section in results else None)
-            for t in TARGETS if t.section in sections]
-    reached = sum(t.holds(value) for t, value in rows)
-    unmeasured = sum(value is None for _, value in rows)
-    lines = [f"{reached} of {len(rows)} reached" + (f", {unmeasured} not measured" if unmeasured else "") + ".", "",
-             "| what | asked | figure | reached | why not |", "| --- | --- | --- | --- | --- |"]
-    for t, value in rows:
+    lines = ["| what | goal | figure | met | why not |", "| --- | --- | --- | --- | --- |"]
+    for t, value in _judged(results, sections):
         verdict = "not measured" if value is None else "yes" if t.holds(value) else "**no**"
         shown = "" if value is None else _number(value)
-        lines.append(f"| {t.what} | {'≤' if t.sense == '<=' else '≥'} {_number(t.bound)} | {shown} | {verdict} "
-                     f"| {t.reason if verdict == '**no**' else ''} |")
+        lines.append(f"| {t.what} | {_bound(t)} | {shown} | {verdict} | {t.reason if verdict == '**no**' else ''} |")
     return lines

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How many bands: error against the converged engine (401) and time a colour, smooth and spiky lamps."""
+"""How many bands: error against the converged engine (401) and time per colour, smooth and spiky lamps."""
 
 import numpy as np
 
@@ -31,7 +31,7 @@ def run(context):
 
 def markdown(results):
     pairs = list(dict.fromkeys(r["pair"] for r in results))
-    lines = ["p99 CIEDE2000 against 401 bands; in brackets µs a colour.", "",
+    lines = ["p99 CIEDE2000 against 401 bands; in brackets µs per colour.", "",
              "| bands | " + " | ".join(pairs) + " |", "| --- |" + " --- |" * len(pairs)]
     for bands in BANDS:
         cells = [f"{r['p99']:.3f} ({r['microseconds']:.1f})" for r in results if r["bands"] == bands]
@@ -42,7 +42,7 @@ def markdown(results):
 def plot(results, path):
     from plotting import figure, save
 
-    drawing, axes = figure("CIEDE2000, p99 against 401 bands", "µs a colour, one core")
+    drawing, axes = figure("CIEDE2000, p99 against 401 bands", "µs per colour, one core")
     for pair in dict.fromkeys(r["pair"] for r in results):
         rows = [r for r in results if r["pair"] == pair and r["bands"] < CONVERGED]
         axes.loglog([r["microseconds"] for r in rows], [max(r["p99"], 1e-4) for r in rows], "o-", label=pair)

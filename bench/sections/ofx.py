@@ -168,7 +168,7 @@ def run(context):
 
 def markdown(results):
     lines = [f"Spectral Transfer, map quality, 3840×2160, {THREADS} threads; OpenColorIO {results['ocio']} in as many strips. "
-             f"Medians of {results['rounds']} interleaved rounds. Wanted: {WANTED[CUBE]} times as fast as the cube, "
+             f"Medians of {results['rounds']} interleaved rounds. Goal: {WANTED[CUBE]} times as fast as the cube, "
              f"{WANTED[MATRIX]} times as fast as the matrix.", "",
              "| | frames/s | noise | " + " | ".join(f"{k}, frames/s | as fast as it" for k in WANTED) + " |",
              "| --- | --- | --- |" + " --- | --- |" * len(WANTED)]
@@ -179,7 +179,7 @@ def markdown(results):
     if "skin" in results:
         row = results["skin"]
         lines += ["", f"Skin, map quality, on the same picture: {row['frames_per_second']['skin']:.1f} frames/s (±{row['noise']:.0%}), "
-                  f"{row['as_fast']:.2f} times as fast as Spectral Transfer (wanted: {WANTED_OF_SKIN})."]
+                  f"{row['as_fast']:.2f} times as fast as Spectral Transfer (goal: {WANTED_OF_SKIN})."]
     lines += ["", "From a parameter's change to the first frame, HD:", "",
               "| | frame | milliseconds, median | least | worst | processor milliseconds | off the final frame, p99 |",
               "| --- | --- | --- | --- | --- | --- | --- |"]

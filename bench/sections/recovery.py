@@ -82,7 +82,7 @@ def run(context):
 
 def markdown(results):
     lines = [f"{CHART}: 24 measured patches seen under D65, shown under another light; mean and (largest) CIEDE2000.", "",
-             "| method | µs a colour | " + " | ".join(LIGHTS) + " |", "| --- | --- |" + " --- |" * len(LIGHTS)]
+             "| method | µs per colour | " + " | ".join(LIGHTS) + " |", "| --- | --- |" + " --- |" * len(LIGHTS)]
     for row in results:
         cells = [f"{row['lights'][light]['mean']:.2f} ({row['lights'][light]['max']:.1f})" for light in LIGHTS]
         lines.append(f"| {row['method']} | {row['microseconds']:,.1f} | " + " | ".join(cells) + " |")

@@ -130,7 +130,7 @@ def markdown(results):
     for row in results["choices"]:
         lines.append(f"| {row['scene']} | " + " | ".join(f"{row['better'][name]:.2f}" for name in CHOICES if name in row["better"]) + " |")
     return lines + ["", f"Peak memory at {LARGE[0]} × {LARGE[1]}, guiding, ReSTIR and 16 spectral bins: {results['memory_mib']:,} MiB "
-                        "(asked: 1,536)."]
+                        "(goal: 1,536)."]
 
 
 def draw(row, axes):

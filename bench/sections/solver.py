@@ -72,7 +72,7 @@ def markdown(results):
     lines += ["", f"Medians of 2,000 colours. colour-science's Meng 2015, 81 bands, same run: {meng:,.0f} µs, "
                   f"{meng / ours:,.0f} times the time of 81 bands here."]
     if "engine" in results:
-        lines += ["", "The exact engine at 81 bands, µs a colour:", "", "| lights | scene | photograph | gamut |",
+        lines += ["", "The exact engine at 81 bands, µs per colour:", "", "| lights | scene | photograph | gamut |",
                   "| --- | --- | --- | --- |"]
         took = {(r["pair"], r["scene"], r["colours"]): r["microseconds"] for r in results["engine"]}
         lines += [f"| {pair} | {scene} | {took[pair, scene, 'photograph']:.2f} | {took[pair, scene, 'gamut']:.2f} |"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The front: error against time a pixel of every representation, each through what runs it."""
+"""The front: error against time per pixel of every representation, each through what runs it."""
 
 import subprocess
 import tempfile
@@ -10,6 +10,7 @@ import PyOpenColorIO as ocio
 
 import defaults
 import peers
+import words
 from door import Engine, Map
 from timing import interleaved, spread
 
@@ -111,9 +112,9 @@ def draw(results, axes):
     for family in dict.fromkeys(r["family"] for r in results):
         rows = [r for r in results if r["pair"] == pair and r["family"] == family]
         axes.loglog([r["nanoseconds_per_pixel"] for r in rows], [max(r["error"]["inside"]["p99"], 1e-3) for r in rows],
-                    "o-" if len(rows) > 1 else "s", label=family)
+                    "o-" if len(rows) > 1 else "s", label=words.plain(family))
     axes.set_ylabel("CIEDE2000, p99 inside the gamut within ±7 stops")
-    axes.set_xlabel(f"ns a pixel, one core ({pair})")
+    axes.set_xlabel(f"ns per pixel, one core ({pair})")
 
 
 def plot(results, path):

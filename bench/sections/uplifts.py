@@ -122,7 +122,7 @@ def markdown(results):
              "| method | " + " | ".join(LIGHTS) + " | rms of the spectrum |", "| --- |" + " --- |" * (len(LIGHTS) + 1)]
     for row in found["rows"]:
         lines.append(f"| {row['method']} | " + " | ".join(f"{row['lights'][light]:.2f}" for light in LIGHTS) + f" | {row['rms']:.3f} |")
-    lines += ["", "Time of a whole spectrum, one core:", "", "| method | ns a colour | asked | colour-science |", "| --- | --- | --- | --- |"]
+    lines += ["", "Time of a whole spectrum, one core:", "", "| method | ns per colour | goal | colour-science |", "| --- | --- | --- | --- |"]
     for row in results["times"]:
         lines.append(f"| {row['method']} | {row['ns']:,.0f} | {row.get('asked', '')} | {row['peer']:,.0f} |" if "peer" in row else
                      f"| {row['method']} | {row['ns']:,.0f} | {row.get('asked', '')} | |")

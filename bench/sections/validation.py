@@ -26,10 +26,10 @@ def run(context):
 
 
 def markdown(results):
-    lines = ["Mean CIEDE2000 over patches. Total: the baked transform (an exposure-invariant chain) against the render under the "
+    lines = ["Mean CIEDE2000 over patches. Total: the baked transform (a `.ctf`, exposure-invariant) against the render under the "
              "output light. Engine: the exact engine in its place. What is named: metamerism (the patch's own spectrum is not the "
              "smoothest one; computed from spectra, no render), interreflection (the engine in the box, beyond metamerism), "
-             "representation (chain against engine), noise (95 % interval of the renders).", "",
+             "representation (the file against the engine), noise (95 % interval of the renders).", "",
              "| lights | scene | total | beyond noise | engine | metamerism | interreflection | representation | noise |",
              "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
     for row in results:

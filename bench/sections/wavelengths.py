@@ -89,17 +89,17 @@ def markdown(results):
     width, height = results["size"]
     lines = [f"Guided against uniform wavelengths on a chart, {width} × {height}, direct light, four lanes: how many times lower "
              "time × MSE is. Seconds are user CPU, learning included; the MSE is against "
-             f"{results['truth_samples']:,} samples a pixel. Below {max(SAMPLES)} samples a larger picture is timed. Where "
+             f"{results['truth_samples']:,} samples per pixel. Below {max(SAMPLES)} samples a larger picture is timed. Where "
              "guiding finds the light even it leaves wavelengths uniform, and what it then costs is a path in four pixels to "
              "learn from.", "",
-             "| light | samples | time, guided/uniform | Y, equal samples | Y, equal time | asked | X, equal time | Z, equal time |",
+             "| light | samples | time, guided/uniform | Y, equal samples | Y, equal time | goal | X, equal time | Z, equal time |",
              "| --- | --- | --- | --- | --- | --- | --- | --- |"]
     for r in results["guiding"]:
         x, y, z = r["equal_time"]
         lines.append(f"| {r['light']} | {r['samples']} | {r['seconds_ratio']:.2f} | {r['equal_samples'][1]:.2f} | {y:.2f} "
                      f"| {r['wanted']} | {x:.2f} | {z:.2f} |")
     h = results["histogram"]
-    lines += ["", f"What a pixel of the {h['patch']} patch under FL11 has learnt from one sample a pixel, and the optimum (4.12): "
+    lines += ["", f"What a pixel of the {h['patch']} patch under FL11 has learnt from one sample per pixel, and the optimum (4.12): "
                   f"{h['difference']:.1%} of the histogram lies in other bins.", "",
               "Hero lanes, 64 samples, wavelengths uniform. X, Y and Z: root mean square error × 10⁴ of a radiance of 1:", "",
               "| scene | lanes | s | X | Y | Z | time × MSE of Y, one lane = 1 |", "| --- | --- | --- | --- | --- | --- | --- |"]

@@ -44,6 +44,16 @@ class Pages(unittest.TestCase):
         self.assertEqual(run["wavelengths"]["figures"]["histogram"]["optimum"], curve)
         self.assertEqual(json.loads(report.published_text(kept)), kept)
 
+    def test_words_stand_in_front_and_tables_fold(self):
+        results = report.ordered(json.loads((REPOSITORY / "docs" / "bench.json").read_text(encoding="utf-8")))
+        for name in report.PAGES:
+            text = report.page(results, name)
+            self.assertEqual(text.count("<details>"), text.count("</details>"))
+            for part in text.split("<details>"):
+                self.assertNotRegex(part.split("</details>")[-1], r"(?m)^\|", name)
+            for section in text.split("\n## ")[1:]:
+                self.assertRegex(section, r"\A[^\n]+\n\n[A-Z0-9]", "words follow the heading")
+
     def test_every_figure_is_of_a_section(self):
         results = json.loads((REPOSITORY / "docs" / "bench.json").read_text(encoding="utf-8"))
         self.assertLessEqual(set(results), set(report.SECTIONS))
