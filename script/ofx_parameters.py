@@ -40,6 +40,7 @@ def value_text(parameter):
 
 def table(effect):
     lines = [f"### {effect['label']}", "", f"`{effect['identifier']}`. {effect['description']}", "",
+             "<details>", f"<summary>Parameters of {effect['label']}</summary>", "",
              "| parameter | name | default | animates | what it does |", "| --- | --- | --- | --- | --- |"]
     for parameter in effect["parameters"]:
         if parameter["secret"]:
@@ -49,7 +50,7 @@ def table(effect):
             continue
         lines.append(f"| {parameter['label']} | `{parameter['name']}` | {value_text(parameter)} "
                      f"| {'yes' if parameter['animates'] else ''} | {parameter['hint']} |")
-    return lines
+    return [*lines, "", "</details>"]
 
 
 def main():

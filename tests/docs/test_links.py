@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Links of all pages lead to files and headings that are there."""
+"""Links of all pages lead to files and headings that are there, and folds open and close."""
 
 import re
 import unittest
@@ -36,6 +36,15 @@ class Links(unittest.TestCase):
                 if not file.exists() or (anchor and file.suffix == ".md" and anchor not in anchors(file)):
                     lost.append(f"{page.relative_to(ROOT)}: {file.name}#{anchor}")
         self.assertEqual(lost, [])
+
+    def test_folds_have_a_summary_and_a_blank_line(self):
+        """Without the blank line Git hosts show a table inside as plain text."""
+        for page in PAGES:
+            text = page.read_text(encoding="utf-8")
+            opened = len(re.findall(r"^<details><?", text, re.MULTILINE))
+            proper = len(re.findall(r"^<details>\n?<summary>[^<\n]+</summary>\n\n", text, re.MULTILINE))
+            closed = len(re.findall(r"^</details>$", text, re.MULTILINE))
+            self.assertEqual((opened, closed), (proper, proper), page.name)
 
 
 if __name__ == "__main__":
