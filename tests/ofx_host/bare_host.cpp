@@ -10,9 +10,8 @@ namespace bare_host {
 namespace {
 
 constexpr const char* kColourManagementStyle = "OfxImageEffectPropColourManagementStyle";
-constexpr const char* kOpenClRenderSupported = "OfxImageEffectPropOpenCLRenderSupported";
-constexpr const char* kOpenClEnabled = "OfxImageEffectPropOpenCLEnabled";
-constexpr const char* kOpenClCommandQueue = "OfxImageEffectPropOpenCLCommandQueue";
+// OFX 1.5's properties of devices begin with this and the device's name.
+constexpr const char* kDeviceProperty = "OfxImageEffectProp";
 
 template <typename Function>
 Function* symbol(const LoadedLibrary& library, const char* name) {
@@ -66,8 +65,8 @@ Host::Host(const std::filesystem::path& library, const Features& features)
   if (!features.colourManagement.empty()) {
     m_state->properties.set(kColourManagementStyle, features.colourManagement);
   }
-  if (features.openCl) {
-    m_state->properties.set(kOpenClRenderSupported, "true");
+  if (!features.device.empty()) {
+    m_state->properties.set(kDeviceProperty + features.device + "RenderSupported", "true");
   }
   m_state->host = {m_state->properties.handle(), fetchSuite};
   setSuiteThreads(features.threads);
@@ -192,9 +191,12 @@ OfxStatus Instance::render(const OfxRectI& window, double time, const std::strin
   in.set(kOfxImageEffectPropRenderScale, 0, scale.x);
   in.set(kOfxImageEffectPropRenderScale, 1, scale.y);
   in.set(kOfxImageEffectPropRenderQualityDraft, isDraft ? 1 : 0);
-  if (m_queue != nullptr) {
-    in.set(kOpenClEnabled, 1);
-    in.set(kOpenClCommandQueue, m_queue);
+  if (!m_device.empty()) {
+    const std::string prefix = kDeviceProperty + m_device;
+    in.set(prefix + "Enabled", 1);
+    if (m_queue != nullptr) {
+      in.set(prefix + (m_device == "Cuda" ? "Stream" : "CommandQueue"), m_queue);
+    }
   }
   return act(kOfxImageEffectActionRender, &in, nullptr);
 }

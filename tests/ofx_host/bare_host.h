@@ -30,7 +30,7 @@ struct Features {
   bool plainMessages = true;
   bool parameters = true;
   std::string colourManagement = {};  ///< style; empty: it knows nothing of it
-  bool openCl = false;                ///< its images may lie in OpenCL buffers
+  std::string device = {};            ///< where its images may lie: "OpenCL", "Cuda", "Metal"; empty: in memory alone
 };
 
 /// An image as a clip hands it over. The memory is the test's.
@@ -132,8 +132,11 @@ class Instance {
   /// @param window  in pixels at that scale
   OfxStatus render(const OfxRectI& window, double time = 0, const std::string& field = kOfxImageFieldNone,
                    OfxPointD renderScale = {1, 1}, bool isDraft = false) const;
-  /// Renders from now on in OpenCL buffers, which the images' data are, on this queue; null: in memory.
-  void useOpenCl(void* queue) { m_queue = queue; }
+  /// Renders from now on where the images' data say, a kind of Features::device, on this queue; "": in memory.
+  void useDevice(const std::string& kind, void* queue = nullptr) {
+    m_device = kind;
+    m_queue = queue;
+  }
   /// Name of the clip that stands for the result, or nothing.
   std::string identity(const OfxRectI& window, double time = 0) const;
 
@@ -141,6 +144,7 @@ class Instance {
   const Host& m_host;
   int m_plugin;
   std::unique_ptr<Effect> m_effect;
+  std::string m_device;
   void* m_queue = nullptr;
 };
 

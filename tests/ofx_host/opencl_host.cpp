@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "opencl_host.h"
-
-#include <algorithm>
 #include <cstdlib>
-#include <cstring>
-#include <optional>
 #include <stdexcept>
-#include <vector>
 
+#include "device_host.h"
 #include "system.h"
 
 namespace bare_host {
@@ -22,8 +17,6 @@ constexpr Flags kCopiesHost = 1U << 5U;
 constexpr Flags kAnyKind = 0xFFFFFFFF;
 constexpr std::uint32_t kBaseAlignmentBits = 0x1019;
 constexpr std::uint32_t kRegion = 0x1220;
-constexpr std::size_t kGuardBytes = 64;
-constexpr unsigned char kGuard = 0x5A;
 
 void require(Status status, const char* what) {
   if (status != 0) {
@@ -31,7 +24,40 @@ void require(Status status, const char* what) {
   }
 }
 
-}  // namespace
+class OpenClHost final : public DeviceHost {
+ public:
+  OpenClHost();
+  ~OpenClHost() override;
+  OpenClHost(const OpenClHost&) = delete;
+  OpenClHost& operator=(const OpenClHost&) = delete;
+
+  const DeviceWords& words() const override { return m_words; }
+  Handle queue(int index) const override { return m_queues[index]; }
+  Handle hold(int queue) const override;
+  void signal(Handle event) const override;
+  Handle buffer(std::size_t bytes, const void* data) const override;
+  Handle part(Handle buffer, std::size_t begin, std::size_t bytes) const override;
+  void read(Handle buffer, std::size_t bytes, void* data, int queue) const override;
+  void release(Handle buffer) const override;
+  std::size_t partAlignment() const override;
+
+ private:
+  struct Driver;
+  const DeviceWords m_words = {
+      .kind = "OpenCL",
+      .variable = "METAMER_OFX_OPENCL",
+      .library = METAMER_DEVICE_LIBRARY,
+      .hasDoubles = true,
+      .needless = {"clBuildProgram", "clCreateProgramWithSource", "clCreateKernel", "clCreateBuffer", "clSetKernelArg",
+                   "clGetKernelWorkGroupInfo", "clEnqueueNDRangeKernel"},
+      .needed = {"clEnqueue", "clGet"},
+      .compiling = "clBuildProgram",
+      .failure = -36};
+  std::unique_ptr<const Driver> m_driver;
+  Handle m_device = nullptr;
+  Handle m_context = nullptr;
+  Handle m_queues[2] = {};
+};
 
 struct OpenClHost::Driver {
   LoadedLibrary library{"libOpenCL.so.1"};
@@ -62,7 +88,6 @@ struct OpenClHost::Driver {
   Status (*read)(Handle, Handle, std::uint32_t, std::size_t, std::size_t, void*, std::uint32_t, const Handle*,
                  Handle*) = find<Status(Handle, Handle, std::uint32_t, std::size_t, std::size_t, void*, std::uint32_t,
                                         const Handle*, Handle*)>("clEnqueueReadBuffer");
-  Status (*finish)(Handle) = find<Status(Handle)>("clFinish");
   Status (*releaseBuffer)(Handle) = find<Status(Handle)>("clReleaseMemObject");
   Status (*releaseEvent)(Handle) = find<Status(Handle)>("clReleaseEvent");
   Status (*releaseQueue)(Handle) = find<Status(Handle)>("clReleaseCommandQueue");
@@ -105,11 +130,7 @@ OpenClHost::~OpenClHost() {
   }
 }
 
-void OpenClHost::finish(int queue) const {
-  require(m_driver->finish(m_queues[queue]), "the queue");
-}
-
-OpenClHost::Handle OpenClHost::hold(int queue) const {
+DeviceHost::Handle OpenClHost::hold(int queue) const {
   Status status = 0;
   Handle const event = m_driver->createEvent(m_context, &status);
   require(status, "an event");
@@ -122,14 +143,14 @@ void OpenClHost::signal(Handle event) const {
   m_driver->releaseEvent(event);
 }
 
-OpenClHost::Handle OpenClHost::buffer(std::size_t bytes, const void* data) const {
+DeviceHost::Handle OpenClHost::buffer(std::size_t bytes, const void* data) const {
   Status status = 0;
   Handle const made = m_driver->createBuffer(m_context, kReadWrite | kCopiesHost, bytes, data, &status);
   require(status, "a buffer");
   return made;
 }
 
-OpenClHost::Handle OpenClHost::part(Handle buffer, std::size_t begin, std::size_t bytes) const {
+DeviceHost::Handle OpenClHost::part(Handle buffer, std::size_t begin, std::size_t bytes) const {
   const std::size_t region[2] = {begin, bytes};
   Status status = 0;
   Handle const made = m_driver->createPart(buffer, kReadWrite, kRegion, region, &status);
@@ -151,49 +172,10 @@ std::size_t OpenClHost::partAlignment() const {
   return bits / 8;
 }
 
-OpenClFrame::OpenClFrame(const OpenClHost& host, const Frame& frame, std::size_t begin)
-    : m_host(host), m_frame(frame), m_begin(begin) {
-  const Image image = frame.image();
-  const std::ptrdiff_t below = image.bounds.y2 - image.bounds.y1 - 1;
-  auto* const first = static_cast<unsigned char*>(image.data);
-  if (first == nullptr) {
-    return;
-  }
-  m_low = image.rowBytes < 0 ? first + below * image.rowBytes : first;
-  const std::size_t rows = static_cast<std::size_t>(below) * static_cast<std::size_t>(std::abs(image.rowBytes));
-  m_bytes = rows + static_cast<std::size_t>(std::abs(image.rowBytes) - frame.shape().padding);
-  std::vector<unsigned char> content(begin + m_bytes + kGuardBytes, kGuard);
-  std::copy_n(m_low, m_bytes, content.begin() + static_cast<std::ptrdiff_t>(begin));
-  m_whole = host.buffer(content.size(), content.data());
-  m_buffer = begin == 0 ? m_whole : host.part(m_whole, begin, m_bytes + kGuardBytes);
-}
+}  // namespace
 
-OpenClFrame::~OpenClFrame() {
-  if (m_whole != nullptr) {
-    m_host.release(m_whole);
-  }
-  if (m_buffer != m_whole) {
-    m_host.release(m_buffer);
-  }
-}
-
-Image OpenClFrame::image(const std::string& premultiplication) const {
-  Image image = m_frame.image(premultiplication);
-  image.data = m_buffer;
-  return image;
-}
-
-bool OpenClFrame::bring(int queue) const {
-  if (m_whole == nullptr) {
-    return true;
-  }
-  std::vector<unsigned char> content(m_begin + m_bytes + kGuardBytes);
-  m_host.read(m_whole, content.size(), content.data(), queue);
-  const auto rows = content.begin() + static_cast<std::ptrdiff_t>(m_begin);
-  std::copy_n(rows, m_bytes, m_low);
-  const auto isGuard = [](unsigned char byte) { return byte == kGuard; };
-  return std::all_of(content.begin(), rows, isGuard) &&
-         std::all_of(rows + static_cast<std::ptrdiff_t>(m_bytes), content.end(), isGuard);
+std::unique_ptr<DeviceHost> makeDeviceHost() {
+  return std::make_unique<OpenClHost>();
 }
 
 }  // namespace bare_host

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "opencl_ledger.h"
-
 #include <dlfcn.h>
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
+
+#include "device_words.h"
 
 namespace {
 
@@ -17,9 +15,8 @@ using Flags = std::uint64_t;
 using Count = std::uint32_t;
 using Size = std::size_t;
 
-OpenClLedger& ledger() {
-  static OpenClLedger kept = {};
-  return kept;
+DeviceLedger& ledger() {
+  return ledgerOfLibrary();
 }
 
 template <typename Function>
@@ -29,26 +26,25 @@ Function* systems(const char* name) {
   return found == nullptr ? (std::abort(), nullptr) : reinterpret_cast<Function*>(found);
 }
 
-bool isRefused(const char* name) {
-  return ledger().refused != nullptr && std::strncmp(ledger().refused, name, std::strlen(ledger().refused)) == 0;
-}
-
 /// Half of a buffer where the environment asks for it, so that a test can see reads beyond its end found.
 Size granted(Size bytes) {
   return std::getenv("METAMER_HALF_BUFFERS") != nullptr ? bytes / 2 : bytes;
-}
-
-void count(int& counter, int by = 1) {
-  std::atomic_ref(counter) += by;
 }
 
 }  // namespace
 
 extern "C" {
 
-OpenClLedger* metamerLedger() {
+DeviceLedger* metamerLedger() {
   return &ledger();
 }
+
+// Functions that let go, which nothing refuses.
+#define FORWARD_RELEASE(name, counting)              \
+  Status name(Handle released) {                     \
+    counting;                                        \
+    return systems<Status(Handle)>(#name)(released); \
+  }
 
 // Functions that answer with a status.
 #define FORWARD(name, parameters, arguments, counting)  \
@@ -80,6 +76,10 @@ FORWARD(clGetProgramBuildInfo, (Handle program, Handle device, Count what, Size 
         (program, device, what, bytes, value, written), )
 FORWARD(clGetKernelWorkGroupInfo, (Handle kernel, Handle device, Count what, Size bytes, void* value, Size* written),
         (kernel, device, what, bytes, value, written), )
+FORWARD(clGetEventInfo, (Handle event, Count what, Size bytes, void* value, Size* written),
+        (event, what, bytes, value, written), )
+FORWARD(clEnqueueMarker, (Handle queue, Handle* event), (queue, event), )
+FORWARD(clFlush, (Handle queue), (queue), )
 FORWARD_MAKER(clCreateProgramWithSource,
               (Handle context, Count texts, const char** text, const Size* lengths, Status* status),
               (context, texts, text, lengths, status), )
@@ -104,8 +104,9 @@ FORWARD(clEnqueueWriteBuffer,
          const Handle* waitFor, Handle* event),
         (queue, buffer, waits, offset, bytes, data, events, waitFor, event), count(ledger().writes))
 FORWARD(clFinish, (Handle queue), (queue), count(ledger().waits))
-FORWARD(clReleaseMemObject, (Handle buffer), (buffer), count(ledger().buffers, -1))
-FORWARD(clReleaseKernel, (Handle kernel), (kernel), )
-FORWARD(clReleaseProgram, (Handle program), (program), count(ledger().released))
+FORWARD_RELEASE(clReleaseEvent, )
+FORWARD_RELEASE(clReleaseMemObject, count(ledger().buffers, -1))
+FORWARD_RELEASE(clReleaseKernel, )
+FORWARD_RELEASE(clReleaseProgram, count(ledger().released))
 
 }  // extern "C"

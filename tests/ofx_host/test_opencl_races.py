@@ -20,7 +20,7 @@ class Races(unittest.TestCase):
         with tempfile.TemporaryDirectory() as vendors:
             (Path(vendors) / "oclgrind.icd").write_text(f"{driver}\n")
             environment = os.environ | {"OCL_ICD_VENDORS": vendors, "OCLGRIND_DATA_RACES": "1", "OCLGRIND_UNINITIALIZED": "1", **more}
-            run = subprocess.run([PROGRAM, "--gtest_filter=OfxOpenCl.EveryKernelOnSmallFrames", "--gtest_brief=1"],
+            run = subprocess.run([PROGRAM, "--gtest_filter=OfxDevice.EveryKernelOnSmallFrames", "--gtest_brief=1"],
                                  capture_output=True, text=True, env=environment, errors="replace")
         return run.returncode, run.stdout + run.stderr
 

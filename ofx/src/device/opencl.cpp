@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/opencl.h"
 
-#include <type_traits>
-
 #include "device/system_library.h"
-#include "metamer/spectral/platform.h"
 
 namespace metamer::ofx {
 namespace {
 
-constexpr const char* kVariable = "METAMER_OFX_OPENCL";
-constexpr const char* kOff = "off";
 #if defined(_WIN32)
 constexpr const char* kSystemName = "OpenCL.dll";
 #elif defined(__APPLE__)
@@ -21,26 +16,20 @@ constexpr const char* kSystemName = "libOpenCL.so.1";
 
 }  // namespace
 
-std::shared_ptr<const OpenCl> OpenCl::load() {
-  const std::string name = spectral::environmentValue(kVariable).value_or(kSystemName);
-  if (name == kOff) {
-    return nullptr;
-  }
-  const auto library = SystemLibrary::load(name);
+std::shared_ptr<const OpenCl> OpenCl::load(const char* variable) {
+  const auto library = SystemLibrary::loadOr(variable, kSystemName);
   if (!library) {
     return nullptr;
   }
   auto functions = std::make_shared<OpenCl>();
   bool hasAll = true;
-  const auto find = [&](auto& function, const char* symbol) {
-    function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(library->symbol(symbol));
-    hasAll = hasAll && function != nullptr;
-  };
+  const auto find = [&](auto& function, const char* symbol) { hasAll = library->find(function, symbol) && hasAll; };
   find(functions->queueInfo, "clGetCommandQueueInfo");
   find(functions->deviceInfo, "clGetDeviceInfo");
   find(functions->bufferInfo, "clGetMemObjectInfo");
   find(functions->buildInfo, "clGetProgramBuildInfo");
   find(functions->groupInfo, "clGetKernelWorkGroupInfo");
+  find(functions->eventInfo, "clGetEventInfo");
   find(functions->createProgram, "clCreateProgramWithSource");
   find(functions->buildProgram, "clBuildProgram");
   find(functions->createKernel, "clCreateKernel");
@@ -49,8 +38,11 @@ std::shared_ptr<const OpenCl> OpenCl::load() {
   find(functions->enqueueKernel, "clEnqueueNDRangeKernel");
   find(functions->enqueueRead, "clEnqueueReadBuffer");
   find(functions->enqueueWrite, "clEnqueueWriteBuffer");
+  find(functions->enqueueMarker, "clEnqueueMarker");
+  find(functions->flush, "clFlush");
   find(functions->finish, "clFinish");
   find(functions->releaseBuffer, "clReleaseMemObject");
+  find(functions->releaseEvent, "clReleaseEvent");
   find(functions->releaseKernel, "clReleaseKernel");
   find(functions->releaseProgram, "clReleaseProgram");
   return hasAll ? functions : nullptr;

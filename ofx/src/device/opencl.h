@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
-#include <string>
+
+#include "device/device_interface.h"
 
 namespace metamer::ofx {
 
@@ -31,6 +31,8 @@ struct OpenCl {
   static constexpr std::uint32_t kBufferOffset = 0x1108;
   static constexpr std::uint32_t kBuildLog = 0x1183;
   static constexpr std::uint32_t kGroupSize = 0x11B0;
+  static constexpr std::uint32_t kEventStatus = 0x11D3;
+  static constexpr Status kComplete = 0;
 
   Status (*queueInfo)(Handle queue, std::uint32_t what, std::size_t bytes, void* value, std::size_t* written) = nullptr;
   Status (*deviceInfo)(Handle device, std::uint32_t what, std::size_t bytes, void* value,
@@ -41,6 +43,7 @@ struct OpenCl {
                       std::size_t* written) = nullptr;
   Status (*groupInfo)(Handle kernel, Handle device, std::uint32_t what, std::size_t bytes, void* value,
                       std::size_t* written) = nullptr;
+  Status (*eventInfo)(Handle event, std::uint32_t what, std::size_t bytes, void* value, std::size_t* written) = nullptr;
   Handle (*createProgram)(Handle context, std::uint32_t count, const char** texts, const std::size_t* lengths,
                           Status* status) = nullptr;
   Status (*buildProgram)(Handle program, std::uint32_t count, const Handle* devices, const char* options,
@@ -55,38 +58,30 @@ struct OpenCl {
                         void* data, std::uint32_t events, const Handle* waitFor, Handle* event) = nullptr;
   Status (*enqueueWrite)(Handle queue, Handle buffer, std::uint32_t waits, std::size_t offset, std::size_t bytes,
                          const void* data, std::uint32_t events, const Handle* waitFor, Handle* event) = nullptr;
+  Status (*enqueueMarker)(Handle queue, Handle* event) = nullptr;
+  Status (*flush)(Handle queue) = nullptr;
   Status (*finish)(Handle queue) = nullptr;
   Status (*releaseBuffer)(Handle buffer) = nullptr;
+  Status (*releaseEvent)(Handle event) = nullptr;
   Status (*releaseKernel)(Handle kernel) = nullptr;
   Status (*releaseProgram)(Handle program) = nullptr;
 
-  /// Of the system's library; of the one that the environment's METAMER_OFX_OPENCL names, where it does. Null where
-  /// there is none, it lacks a function, or the variable says "off".
-  static std::shared_ptr<const OpenCl> load();
+  /// Of the system's library, or what the environment's variable says. Null where there is none or it lacks a function.
+  static std::shared_ptr<const OpenCl> load(const char* variable);
 };
 
-/// What a driver refused, and why.
-class OpenClError : public std::runtime_error {
- public:
-  OpenClError(OpenCl::Status status, const std::string& words) : std::runtime_error(words), m_status(status) {}
-  OpenCl::Status status() const { return m_status; }
-
-  /// Throws where `status` is a failure. `what` names the call.
-  static void check(OpenCl::Status status, const char* what) {
-    if (status != OpenCl::kSuccess) {
-      throw OpenClError(status, std::string("OpenCL: ") + what + " fails with " + std::to_string(status));
-    }
+/// Throws where `status` is a failure. `call` names what was asked. @throws DeviceError
+inline void checkOpenCl(OpenCl::Status status, const char* call) {
+  if (status != OpenCl::kSuccess) {
+    throw DeviceError::of("OpenCL", call, status);
   }
+}
 
- private:
-  OpenCl::Status m_status;
-};
-
-/// What the driver tells of a buffer or queue. @throws OpenClError, with the name of the `asking`, where it does not
+/// What the driver tells of a buffer or queue. @throws DeviceError, with the name of the `asking`, where it does not
 template <typename Value>
 Value openClInfo(decltype(OpenCl::bufferInfo) info, OpenCl::Handle of, std::uint32_t what, const char* asking) {
   Value value{};
-  OpenClError::check(info(of, what, sizeof value, &value, nullptr), asking);
+  checkOpenCl(info(of, what, sizeof value, &value, nullptr), asking);
   return value;
 }
 

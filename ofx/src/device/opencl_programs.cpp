@@ -8,7 +8,6 @@
 namespace metamer::ofx {
 namespace {
 
-constexpr std::size_t kKeptPrograms = 8;
 /// OpenCL C 1.2 as it is, without any of the options that loosen arithmetic.
 constexpr const char* kOptions = "-cl-std=CL1.2";
 /// Where a device has it: results are then the processor's to the bit.
@@ -24,40 +23,25 @@ std::string firstError(const std::string& log) {
 }  // namespace
 
 OpenCl::Owned OpenClPrograms::kernel(OpenCl::Handle context, OpenCl::Handle device, const char* name) {
-  const Entry built = entry(context, device);
+  const Entry built = m_entries.get([&](const Entry& entry) { return entry.isAt(context, device); },
+                                    [&] { return build(context, device); });
   if (!built.problem.empty()) {
-    throw OpenClError(OpenCl::kSuccess, built.problem);
+    throw DeviceError(built.problem);
   }
   OpenCl::Status status = OpenCl::kSuccess;
   OpenCl::Owned made(m_library->createKernel(built.program.get(), name, &status), m_library->releaseKernel);
   if (status == OpenCl::kInvalidKernelName) {
     return {nullptr, m_library->releaseKernel};
   }
-  OpenClError::check(status, "a kernel");
+  checkOpenCl(status, "a kernel");
   return made;
 }
 
-OpenClPrograms::Entry OpenClPrograms::entry(OpenCl::Handle context, OpenCl::Handle device) {
-  const std::lock_guard lock(m_mutex);
-  const auto found = std::find_if(m_entries.begin(), m_entries.end(),
-                                  [&](const Entry& each) { return each.context == context && each.device == device; });
-  if (found != m_entries.end()) {
-    m_entries.splice(m_entries.begin(), m_entries, found);
-  } else {
-    m_entries.push_front(build(context, device));
-    if (m_entries.size() > kKeptPrograms) {
-      m_entries.pop_back();
-    }
-  }
-  return m_entries.front();
-}
-
 OpenClPrograms::Entry OpenClPrograms::build(OpenCl::Handle context, OpenCl::Handle device) const {
-  const std::string text = openClWindowText();
-  const char* source = text.c_str();
+  const char* source = windowText("window.cl").data();
   OpenCl::Status status = OpenCl::kSuccess;
   OpenCl::Handle const program = m_library->createProgram(context, 1, &source, nullptr, &status);
-  OpenClError::check(status, "a program");
+  checkOpenCl(status, "a program");
   Entry made{context, device, {program, m_library->releaseProgram}, {}};
   OpenCl::Flags arithmetic = 0;
   m_library->deviceInfo(device, OpenCl::kSingleArithmetic, sizeof arithmetic, &arithmetic, nullptr);

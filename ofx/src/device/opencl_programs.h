@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <list>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "device/opencl.h"
+#include "device/recently_used.h"
 
 namespace metamer::ofx {
 
@@ -17,12 +16,16 @@ class OpenClPrograms {
   explicit OpenClPrograms(std::shared_ptr<const OpenCl> library) : m_library(std::move(library)) {}
 
   /// A kernel of this name, the caller's alone: arguments are a kernel's state. Null where the device cannot run it.
-  /// @throws OpenClError where the driver does not build the program, with its compiler's first line; that is
+  /// @throws DeviceError where the driver does not build the program, with its compiler's first line; that is
   ///         remembered, and it is not asked again.
   OpenCl::Owned kernel(OpenCl::Handle context, OpenCl::Handle device, const char* name);
 
  private:
   struct Entry {
+    bool isAt(OpenCl::Handle itsContext, OpenCl::Handle itsDevice) const {
+      return context == itsContext && device == itsDevice;
+    }
+
     OpenCl::Handle context;
     OpenCl::Handle device;
     /// Holds the context too, so that no other one gets its address. Kept where the build has failed, for the same.
@@ -30,12 +33,10 @@ class OpenClPrograms {
     std::string problem;
   };
 
-  Entry entry(OpenCl::Handle context, OpenCl::Handle device);
   Entry build(OpenCl::Handle context, OpenCl::Handle device) const;
 
   std::shared_ptr<const OpenCl> m_library;
-  std::mutex m_mutex;
-  std::list<Entry> m_entries;  ///< latest first
+  RecentlyUsed<Entry> m_entries;
 };
 
 }  // namespace metamer::ofx

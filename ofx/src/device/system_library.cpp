@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "device/system_library.h"
 
+#include "metamer/spectral/platform.h"
+
 #if defined(_WIN32)
 #include <windows.h>
 
@@ -21,6 +23,11 @@ std::optional<SystemLibrary> SystemLibrary::load(const std::string& name) {
     return std::nullopt;
   }
   return SystemLibrary(handle);
+}
+
+std::optional<SystemLibrary> SystemLibrary::loadOr(const char* variable, const std::string& name) {
+  const std::string chosen = spectral::environmentValue(variable).value_or(name);
+  return chosen.empty() || chosen == "off" ? std::nullopt : load(chosen);
 }
 
 void* SystemLibrary::symbol(const char* name) const {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <string_view>
 
 namespace metamer::ofx {
 
@@ -56,7 +56,8 @@ inline constexpr const char* kAffineWindow = "metamerAffineWindow";
 inline constexpr const char* kMapCurveWindow = "metamerMapCurveWindow";
 inline constexpr const char* kSkinCurveWindow = "metamerSkinCurveWindow";
 
-/// OpenCL C 1.2 of all of them.
-std::string openClWindowText();
+/// All of them in a language, by the name of its file: "window.cl", "window.ptx", "window.metal". Empty where the build
+/// had no compiler for it. The text is kept and ends with a zero.
+std::string_view windowText(std::string_view name);
 
 }  // namespace metamer::ofx

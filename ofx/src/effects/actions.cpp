@@ -44,7 +44,7 @@ auto onInstance(const HostSuites& host, OfxImageEffectHandle handle, Action acti
 }
 
 OfxStatus createInstance(const Plugin& plugin, const Effect& effect, OfxImageEffectHandle handle) {
-  auto instance = std::make_unique<Instance>(plugin.host(), effect, handle, plugin.openCl());
+  auto instance = std::make_unique<Instance>(plugin.host(), effect, handle, plugin.devices());
   instanceProperties(plugin.host(), handle).setPointer(kOfxPropInstanceData, instance.get());
   instance.release();  // until destroyInstance
   return kOfxStatOK;
@@ -77,7 +77,7 @@ OfxStatus perform(const Plugin& plugin, std::size_t index, const char* action, O
   const PropertySet in(host, inArguments);
   const PropertySet out(host, outArguments);
   if (name == kOfxActionDescribe) {
-    describe(host, effect, handle, plugin.openCl() != nullptr);
+    describe(host, effect, handle, plugin.devices());
   } else if (name == kOfxImageEffectActionDescribeInContext) {
     describeInContext(host, effect, handle);
   } else if (name == kOfxActionCreateInstance) {

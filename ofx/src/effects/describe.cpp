@@ -3,7 +3,6 @@
 
 #include "effects/instance.h"
 #include "host/colour_management.h"
-#include "host/device_properties.h"
 #include "host/property_set.h"
 
 namespace metamer::ofx {
@@ -30,7 +29,7 @@ PropertySet defineClip(const HostSuites& host, OfxImageEffectHandle descriptor, 
 
 }  // namespace
 
-void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor, bool hasOpenCl) {
+void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor, const Devices& devices) {
   const PropertySet properties = propertiesOf(host, descriptor);
   const Effect::Names& names = effect.names();
   properties.set(kOfxPropLabel, names.label);
@@ -59,10 +58,7 @@ void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle
   properties.trySet(kOfxImageEffectPluginPropFieldRenderTwiceAlways, 0);
   properties.trySet(kOfxImageEffectPropSupportsMultipleClipDepths, 1);
   properties.trySet(kOfxImageEffectPropSupportsMultipleClipPARs, 0);
-  if (hasOpenCl) {
-    properties.trySet(kOfxImageEffectPropOpenCLRenderSupported, "true");
-    properties.trySet(kOfxImageEffectPropCPURenderSupported, "true");
-  }
+  devices.describe(properties);
   declareColourManagement(host, descriptor);
 }
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "device/devices.h"
 #include "effects/effect.h"
 #include "host/host.h"
 
 namespace metamer::ofx {
 
-/// The describe action: what the effect is and can. @param hasOpenCl  it renders in OpenCL buffers too @throws
-/// HostError
-void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor, bool hasOpenCl);
+/// The describe action: what the effect is and can. @param devices  it renders there too @throws HostError
+void describe(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor, const Devices& devices);
 
 /// The describe-in-context action: clips and parameters, the same in every context. @throws HostError
 void describeInContext(const HostSuites& host, const Effect& effect, OfxImageEffectHandle descriptor);

@@ -2,7 +2,6 @@
 #include "effects/instance.h"
 
 #include "host/colour_management.h"
-#include "host/device_properties.h"
 #include "metamer/spectral/input_error.h"
 
 namespace metamer::ofx {
@@ -26,11 +25,11 @@ RenderQuality renderQuality(const PropertySet& arguments) {
 
 }  // namespace
 
-Instance::Instance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle, OpenClRenderer* openCl)
+Instance::Instance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle, const Devices& devices)
     : m_host(host),
       m_effect(effect),
       m_handle(handle),
-      m_openCl(openCl),
+      m_devices(devices),
       m_values(host, handle, effect.parameters()),
       m_messages(host, handle),
       m_source(clip(kOfxImageEffectSimpleSourceClipName)),
@@ -158,18 +157,10 @@ void Instance::render(const PropertySet& arguments) {
 }
 
 void Instance::renderJob(const PropertySet& arguments, const RenderJob& job) {
-  const auto isAborted = [this] { return m_host.effect->abort(m_handle) != 0; };
-  if (arguments.findInt(kOfxImageEffectPropOpenCLEnabled).value_or(0) == 0) {
-    ofx::render(m_host, job, isAborted);
-    return;
-  }
-  if (m_openCl == nullptr) {
-    throw HostError(kOfxStatGPURenderFailed, "OpenCL buffers, which were not offered to be taken");
-  }
-  void* const queue = arguments.getPointer(kOfxImageEffectPropOpenCLCommandQueue);
-  const std::string refused = m_openCl->render(m_host, queue, job, isAborted);
+  const std::string refused =
+      m_devices.render(m_host, arguments, job, [this] { return m_host.effect->abort(m_handle) != 0; });
   if (!refused.empty()) {
-    m_messages.note(refused + "; the processor renders, more slowly. METAMER_OFX_OPENCL=off switches devices off");
+    m_messages.note(refused);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "device/opencl_renderer.h"
+#include "device/devices.h"
 #include "effects/effect.h"
 #include "host/host.h"
 #include "host/message.h"
@@ -20,9 +20,9 @@ inline constexpr const char* kMaskClipName = "Mask";
 /// One use of an effect in a project. Its actions are safe to run at once from several threads.
 class Instance {
  public:
-  /// @param openCl  renders in the host's OpenCL buffers; null: nothing does
+  /// @param devices  render where the host keeps its images
   /// @throws HostError
-  Instance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle, OpenClRenderer* openCl);
+  Instance(const HostSuites& host, const Effect& effect, OfxImageEffectHandle handle, const Devices& devices);
 
   void instanceChanged(const PropertySet& arguments);
   void render(const PropertySet& arguments);
@@ -45,7 +45,7 @@ class Instance {
   const HostSuites& m_host;
   const Effect& m_effect;
   OfxImageEffectHandle m_handle;
-  OpenClRenderer* m_openCl;
+  const Devices& m_devices;
   ParameterValues m_values;
   MessageBoard m_messages;
   OfxImageClipHandle m_source;

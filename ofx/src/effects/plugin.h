@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "device/opencl_renderer.h"
+#include "device/devices.h"
 #include "effects/catalogue.h"
 #include "effects/effect.h"
 #include "host/host.h"
@@ -19,13 +19,12 @@ class Plugin {
   explicit Plugin(const OfxHost* host);
 
   const HostSuites& host() const { return m_host; }
-  /// Null where the host has no OpenCL buffers, or the system no OpenCL.
-  OpenClRenderer* openCl() const { return m_openCl.get(); }
+  const Devices& devices() const { return m_devices; }
   const Effect& effect(std::size_t index) const { return *m_effects[index]; }
 
  private:
   HostSuites m_host;
-  std::unique_ptr<OpenClRenderer> m_openCl;
+  Devices m_devices;
   Catalogue m_catalogue;
   std::vector<std::unique_ptr<Effect>> m_effects;
 };

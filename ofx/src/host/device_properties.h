@@ -17,6 +17,27 @@
 #ifndef kOfxImageEffectPropOpenCLCommandQueue
 #define kOfxImageEffectPropOpenCLCommandQueue "OfxImageEffectPropOpenCLCommandQueue"
 #endif
+#ifndef kOfxImageEffectPropCudaRenderSupported
+#define kOfxImageEffectPropCudaRenderSupported "OfxImageEffectPropCudaRenderSupported"
+#endif
+#ifndef kOfxImageEffectPropCudaEnabled
+#define kOfxImageEffectPropCudaEnabled "OfxImageEffectPropCudaEnabled"
+#endif
+#ifndef kOfxImageEffectPropCudaStreamSupported
+#define kOfxImageEffectPropCudaStreamSupported "OfxImageEffectPropCudaStreamSupported"
+#endif
+#ifndef kOfxImageEffectPropCudaStream
+#define kOfxImageEffectPropCudaStream "OfxImageEffectPropCudaStream"
+#endif
+#ifndef kOfxImageEffectPropMetalRenderSupported
+#define kOfxImageEffectPropMetalRenderSupported "OfxImageEffectPropMetalRenderSupported"
+#endif
+#ifndef kOfxImageEffectPropMetalEnabled
+#define kOfxImageEffectPropMetalEnabled "OfxImageEffectPropMetalEnabled"
+#endif
+#ifndef kOfxImageEffectPropMetalCommandQueue
+#define kOfxImageEffectPropMetalCommandQueue "OfxImageEffectPropMetalCommandQueue"
+#endif
 #ifndef kOfxStatGPURenderFailed
 #define kOfxStatGPURenderFailed ((int)1002)
 #endif

@@ -51,6 +51,14 @@ std::optional<int> PropertySet::findInt(const char* name, int index) const {
   return value;
 }
 
+std::optional<void*> PropertySet::findPointer(const char* name) const {
+  void* value = nullptr;
+  if (suite().propGetPointer(m_handle, name, 0, &value) != kOfxStatOK) {
+    return std::nullopt;
+  }
+  return value;
+}
+
 void PropertySet::set(const char* name, const std::string& value, int index) const {
   check(suite().propSetString(m_handle, name, index, value.c_str()), name);
 }

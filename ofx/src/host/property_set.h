@@ -26,6 +26,7 @@ class PropertySet {
   /// The same where a host may leave it out: nothing then.
   std::optional<std::string> findString(const char* name, int index = 0) const;
   std::optional<int> findInt(const char* name, int index = 0) const;
+  std::optional<void*> findPointer(const char* name) const;
 
   /// @throws HostError
   void set(const char* name, const std::string& value, int index = 0) const;

@@ -9,24 +9,29 @@
 #include <memory>
 #include <string>
 
-#include "opencl_host.h"
-#include "opencl_ledger.h"
+#include "device_host.h"
+#include "device_ledger.h"
 
 namespace bare_host {
 
-/// The plug-in before a host with OpenCL buffers; what it calls is counted.
-class OfxOpenCl : public ::testing::Test {
+/// The plug-in before a host whose pictures lie on a device; what it calls is counted.
+class OfxDevice : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!m_device.reason().empty()) {
       GTEST_SKIP() << m_device.reason() << ": renders in OpenCL buffers are not looked at; install pocl-opencl-icd";
     }
-    setenv("METAMER_OFX_OPENCL", METAMER_OPENCL_LEDGER, 1);
+    useLibrary(m_words.library);
     *ledger() = {};
   }
-  void TearDown() override { unsetenv("METAMER_OFX_OPENCL"); }
+  void TearDown() override { unsetenv(m_words.variable.c_str()); }
 
-  OpenClLedger* ledger() const { return reinterpret_cast<OpenClLedgerFunction*>(m_ledger.symbol("metamerLedger"))(); }
+  void useLibrary(const std::string& name) const { setenv(m_words.variable.c_str(), name.c_str(), 1); }
+  /// A host whose pictures lie on the device, and one before which an effect renders there.
+  Features features() const { return {.device = m_words.kind}; }
+  void onDevice(Instance& effect, int queue = 0) const { effect.useDevice(m_words.kind, m_device.queue(queue)); }
+
+  DeviceLedger* ledger() const { return reinterpret_cast<DeviceLedgerFunction*>(m_ledger.symbol("metamerLedger"))(); }
 
   /// Renders the frames in memory, then in buffers, and expects the same bytes, in and around the pixels.
   struct Case {
@@ -44,7 +49,7 @@ class OfxOpenCl : public ::testing::Test {
   void expectTheProcessorsBits(Instance& effect, const Case& given) {
     expectTheProcessorsBits(effect, given, m_device);
   }
-  void expectTheProcessorsBits(Instance& effect, const Case& given, const OpenClHost& device) {
+  void expectTheProcessorsBits(Instance& effect, const Case& given, const DeviceHost& device) {
     Frame source(given.source);
     source.fill([&](int x, int y) {
       const Frame::Rgba pixel = testPixel(x, y);
@@ -63,25 +68,33 @@ class OfxOpenCl : public ::testing::Test {
       effect.clip("Mask").isConnected = false;
       effect.clip("Mask").properties.set(kOfxImageClipPropConnected, 0);
     }
-    effect.useOpenCl(nullptr);
+    effect.useDevice("");
     connect(source.image(given.premultiplication), expected.image());
     ASSERT_EQ(effect.render(given.window, 0, given.field, {1, 1}, given.isDraft), kOfxStatOK);
 
-    const OpenClFrame sourceThere(device, source, given.begin);
-    const OpenClFrame outputThere(device, output, given.begin);
-    std::unique_ptr<OpenClFrame> maskThere;
+    const DeviceFrame sourceThere(device, source, given.begin);
+    const DeviceFrame outputThere(device, output, given.begin);
+    std::unique_ptr<DeviceFrame> maskThere;
     if (given.mask != nullptr) {
-      maskThere = std::make_unique<OpenClFrame>(device, *given.mask);
+      maskThere = std::make_unique<DeviceFrame>(device, *given.mask);
       effect.connect("Mask", maskThere->image());
     }
     connect(sourceThere.image(given.premultiplication), outputThere.image());
-    effect.useOpenCl(device.queue(given.queue));
+    effect.useDevice(m_words.kind, device.queue(given.queue));
     ASSERT_EQ(effect.render(given.window, 0, given.field, {1, 1}, given.isDraft), kOfxStatOK);
-    effect.useOpenCl(nullptr);
+    effect.useDevice("");
     ASSERT_EQ(effect.effect().imagesOut, 0);
     EXPECT_TRUE(outputThere.bring(given.queue)) << "bytes beyond the image are written";
     EXPECT_TRUE(output.isGuardIntact());
     expectEqual(output, expected);
+  }
+
+  /// As many, none of them waited for; a device without doubles runs none.
+  void expectKernels(int count) const {
+    EXPECT_EQ(ledger()->kernels, m_words.hasDoubles ? count : 0);
+    if (m_words.hasDoubles) {
+      EXPECT_EQ(ledger()->waits, 0);
+    }
   }
 
   static OfxStatus draft(const Instance& effect, const OfxRectI& window) {
@@ -99,8 +112,10 @@ class OfxOpenCl : public ::testing::Test {
     }
   }
 
-  OpenClHost m_device;
-  LoadedLibrary m_ledger{METAMER_OPENCL_LEDGER};
+  const std::unique_ptr<DeviceHost> m_host = makeDeviceHost();
+  const DeviceHost& m_device = *m_host;
+  const DeviceWords& m_words = m_host->words();
+  LoadedLibrary m_ledger{m_words.library};
 };
 
 }  // namespace bare_host
