@@ -10,6 +10,7 @@
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/png_check.h"
+#include "metamer/spectral/srgb_curve.h"
 #include "space_names.h"
 
 namespace metamer::lutgen {
@@ -86,8 +87,7 @@ bool Picture::isSrgb() const {
 void decodeSrgb(std::span<float> rgba) {
   for (std::size_t i = 0; i < rgba.size(); ++i) {
     if (i % 4 != 3) {
-      const double value = rgba[i];
-      rgba[i] = static_cast<float>(value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4));
+      rgba[i] = static_cast<float>(spectral::linearFromSrgb(rgba[i]));
     }
   }
 }

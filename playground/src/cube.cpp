@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "metamer/spectral/input_error.h"
+#include "metamer/spectral/srgb_curve.h"
 #include "metamer/spectral/text.h"
-#include "srgb.h"
 
 namespace metamer::playground {
 namespace {
@@ -25,7 +25,7 @@ struct Signal {
 
 Signal signalOf(const spectral::DataLibrary& library, const std::string& name) {
   if (name == kScreen) {
-    return {library.colourSpace(kScreenPrimaries).linear, srgbFromLinear, linearFromSrgb};
+    return {library.colourSpace(kScreenPrimaries).linear, spectral::srgbFromLinear, spectral::linearFromSrgb};
   }
   const spectral::ColourSpace space = library.colourSpace(name);
   if (!space.encoding) {

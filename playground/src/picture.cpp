@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "srgb.h"
+#include "metamer/spectral/srgb_curve.h"
 
 namespace metamer::playground {
 namespace {
@@ -16,11 +16,11 @@ constexpr int kSteps = 1 << 14;
 
 Picture::Picture() {
   for (int code = 0; code < 256; ++code) {
-    m_linearOfCode.push_back(static_cast<float>(linearFromSrgb(code / 255.0)));
+    m_linearOfCode.push_back(static_cast<float>(spectral::linearFromSrgb(code / 255.0)));
   }
   for (int step = 0; step <= kSteps; ++step) {
     m_codeOfStep.push_back(
-        static_cast<std::uint8_t>(std::lround(255.0 * srgbFromLinear(step / static_cast<double>(kSteps)))));
+        static_cast<std::uint8_t>(std::lround(255.0 * spectral::srgbFromLinear(step / static_cast<double>(kSteps)))));
   }
 }
 

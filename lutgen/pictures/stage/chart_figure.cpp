@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "metamer/spectral/chromatic_adaptation.h"
+#include "metamer/spectral/srgb_curve.h"
 #include "picture.h"
 
 namespace metamer::lutgen {
@@ -23,7 +24,7 @@ std::array<float, 3> displayed(const Eigen::Vector3d& linear) {
   std::array<float, 3> result{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double value = std::clamp(linear[static_cast<Eigen::Index>(k)], 0.0, 1.0);
-    result[k] = static_cast<float>(value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055);
+    result[k] = static_cast<float>(spectral::srgbFromLinear(value));
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "metamer/spectral/srgb_curve.h"
 #include "picture.h"
 
 namespace metamer::lutgen {
@@ -16,8 +17,7 @@ namespace {
 constexpr std::array<float, 3> kLine = {0.0F, 1.0F, 0.3F};
 
 float displayed(float linear) {
-  const float value = std::clamp(std::isfinite(linear) ? linear : 0.0F, 0.0F, 1.0F);
-  return value <= 0.0031308F ? 12.92F * value : 1.055F * std::pow(value, 1 / 2.4F) - 0.055F;
+  return static_cast<float>(spectral::srgbFromLinear(std::clamp(std::isfinite(linear) ? linear : 0.0F, 0.0F, 1.0F)));
 }
 
 void drawLine(OIIO::ImageBuf& canvas, const Eigen::Vector2d& from, const Eigen::Vector2d& to, int thickness) {

@@ -8,6 +8,7 @@
 
 #include "metamer/spectral/chromatic_adaptation.h"
 #include "metamer/spectral/rgb_space.h"
+#include "metamer/spectral/srgb_curve.h"
 #include "operators/ap1.h"
 #include "operators/parallel.h"
 
@@ -40,8 +41,7 @@ Eigen::Matrix3d between(const spectral::RgbSpace& from, const spectral::RgbSpace
 
 /// 8-bit code of a display, without rounding.
 double codeOf(double linear) {
-  const double light = std::clamp(linear, 0.0, 1.0);
-  return 255.0 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055);
+  return 255.0 * spectral::srgbFromLinear(std::clamp(linear, 0.0, 1.0));
 }
 
 double quantile(std::vector<double> values, double part) {

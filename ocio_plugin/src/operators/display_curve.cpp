@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "metamer/spectral/srgb_curve.h"
 #include "metamer/spectral/text.h"
 
 namespace metamer::ocio {
@@ -15,19 +16,11 @@ constexpr double kRec1886 = 2.4;
 }  // namespace
 
 double DisplayCurve::decoded(double signal) const {
-  const double size = std::abs(signal);
-  const double light = gamma             ? std::pow(size, *gamma)
-                       : size <= 0.04045 ? size / 12.92
-                                         : std::pow((size + 0.055) / 1.055, 2.4);
-  return std::copysign(light, signal);
+  return gamma ? std::copysign(std::pow(std::abs(signal), *gamma), signal) : spectral::linearFromSrgb(signal);
 }
 
 double DisplayCurve::encoded(double light) const {
-  const double size = std::abs(light);
-  const double signal = gamma               ? std::pow(size, 1.0 / *gamma)
-                        : size <= 0.0031308 ? 12.92 * size
-                                            : 1.055 * std::pow(size, 1.0 / 2.4) - 0.055;
-  return std::copysign(signal, light);
+  return gamma ? std::copysign(std::pow(std::abs(light), 1.0 / *gamma), light) : spectral::srgbFromLinear(light);
 }
 
 std::string DisplayCurve::name() const {
