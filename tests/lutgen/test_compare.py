@@ -7,6 +7,7 @@ import re
 import shutil
 import unittest
 import xml.etree.ElementTree
+from pathlib import Path
 
 import numpy as np
 import OpenEXR
@@ -17,6 +18,8 @@ from lutgen import LutgenTest, lutgen
 NATURAL = "metamer: 1\nname: night\nspace: ACEScg\ninput: {illuminant: D65}\noutput: {illuminant: HP1, adaptation: 0.5}\n"
 # What compare does with a recipe does not depend on its scene; this one takes half the time.
 NIGHT = NATURAL + "scene: {kind: smooth}\n"
+# Of a plot: above and left of a panel, and the panel's side.
+TOP, LEFT, PANEL = 72, 76, 460
 
 
 def write_exr(file, pixels):
@@ -176,7 +179,8 @@ class Compare(LutgenTest):
         with Image.open(self.folder / "plot.png") as plot:
             sheet = np.asarray(plot.convert("RGB")).astype(int)
         # The picture's panel has one bright spot where the pixel is.
-        panel = sheet[56:56 + 306, 56 + 2 * (460 + 56):56 + 2 * (460 + 56) + 460]
+        left = LEFT + 2 * (PANEL + LEFT)
+        panel = sheet[TOP:TOP + 306, left:left + PANEL]
         y, x = np.unravel_index(panel.sum(axis=2).argmax(), panel.shape[:2])
         self.assertEqual((int(y / 306 * 20), int(x / 460 * 30)), (7, 11))
         # Encoded pictures are decoded.
@@ -191,12 +195,28 @@ class Compare(LutgenTest):
         self.assertWorks("bake", "night.yaml", "-o", "a.cube", "--size", "9")
         self.compared("night.yaml", "a.cube", "--plot", "plot.png")
         with Image.open(self.folder / "plot.png") as plot:
-            self.assertEqual(plot.size, (56 + 2 * (460 + 56) + 18 + 56, 460 + 112))
+            self.assertEqual(plot.size, (LEFT + 2 * (PANEL + LEFT) + 18 + 190, TOP + PANEL + 84))
             sheet = np.asarray(plot.convert("RGB")).astype(int)
-        # Something bright, something dark and the background within the plane of chromaticities.
-        plane = sheet[56:516, 56:516].sum(axis=2)
-        self.assertGreater(plane.max(), 500)
-        self.assertLess(plane.min(), 100)
+        # Something bright and the background within the plane of chromaticities; dark where nobody sees the difference.
+        plane = sheet[TOP:TOP + PANEL, LEFT:LEFT + PANEL].sum(axis=2)
+        self.assertGreater(plane.max(), 400)
+        self.assertEqual(np.median(plane[:40]), 3 * 38)
+        # Words stand above, below and beside the panels, where there is a font.
+        if Path("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf").exists():
+            for part in (sheet[:TOP - 4], sheet[TOP + PANEL + 8:, LEFT:LEFT + PANEL], sheet[TOP:TOP + PANEL, -180:]):
+                self.assertGreater((part.min(axis=2) > 150).sum(), 200)
+        # The scale is dark below, bright above, and goes by factors: a tenth of its end is at two thirds and more.
+        bar = sheet[TOP:TOP + PANEL, LEFT + 2 * (PANEL + LEFT) + 9].sum(axis=1)
+        self.assertGreater(bar[4], 500)
+        self.assertLess(bar[-4], 40)
+        self.assertLess((np.diff(bar.astype(int)) > 4).sum(), 3)
+        # No two files of one kind differ but by the tolerance's mark.
+        self.compared("night.yaml", "a.cube", "--plot", "marked.png", "--tolerance", "1", code=3)
+        with Image.open(self.folder / "marked.png") as plot:
+            marked = np.asarray(plot.convert("RGB")).astype(int)
+        different = np.argwhere((marked != sheet).any(axis=2))
+        self.assertGreater(len(different), 20)
+        self.assertGreater(different[:, 1].min(), LEFT + 2 * (PANEL + LEFT) - 8)
 
     def test_bad_input_is_named(self):
         self.assertWorks("bake", "night.yaml", "-o", "a.ctf", "--size", "5")

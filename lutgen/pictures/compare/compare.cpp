@@ -216,9 +216,9 @@ class Comparer {
 
   void plot(const CompareReport& report) const {
     HeatMapOptions options;
-    options.scale =
-        report.tolerance ? 2.0 * *report.tolerance : std::min(report.comparison.max, 2.0 * report.comparison.p99);
-    options.scale = std::max(options.scale, 0.01);
+    options.scale = ErrorScale(report.comparison.max);
+    options.tolerance = report.tolerance;
+    options.spaceName = report.space;
     options.pictureWidth = m_pictureWidth;
     options.title = "CIEDE2000, " + report.nameA + " against " + report.nameB;
     writeHeatMap(spectral::pathOf(m_arguments.plot), report.comparison, m_space, m_library.observer("CIE 1931 2"),
