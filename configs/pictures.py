@@ -24,11 +24,12 @@ SIDE = 124  # of one picture
 GAP = 6
 LABEL = 20
 LEFT = 92
+ENLARGED = 8  # differences between cameras
 
 
 def photograph() -> np.ndarray:
     """The astronaut, head and shoulders, scene-linear ACEScg, SIDE x SIDE."""
-    whole = pictures.photograph("astronaut.png")[0:372, 60:432]
+    whole = pictures.scene(pictures.scikit_image("astronaut.png"))[0:372, 60:432]
     edges = np.linspace(0, whole.shape[0], SIDE + 1).astype(int)
     rows = np.add.reduceat(whole, edges[:-1], axis=0) / np.diff(edges)[:, None, None]
     return np.add.reduceat(rows, edges[:-1], axis=1) / np.diff(edges)[None, :, None]
@@ -50,8 +51,16 @@ class Sheet:
             self.draw.text((GAP, LABEL + GAP + row * (SIDE + GAP)), text, font=self.font, fill=(235, 235, 235))
 
     def put(self, row: int, column: int, acescg: np.ndarray) -> None:
+        self.paste(row, column, pictures.view(acescg))
+
+    def put_difference(self, row: int, column: int, before: np.ndarray, after: np.ndarray) -> None:
+        """What changes on the screen, ENLARGED times, from grey."""
+        change = pictures.view(after).astype(int) - pictures.view(before)
+        self.paste(row, column, np.clip(118 + ENLARGED * change, 0, 255).astype(np.uint8))
+
+    def paste(self, row: int, column: int, codes: np.ndarray) -> None:
         place = (LEFT + GAP + column * (SIDE + GAP), LABEL + GAP + row * (SIDE + GAP))
-        self.image.paste(Image.fromarray(pictures.view(acescg)), place)
+        self.image.paste(Image.fromarray(codes), place)
 
     def save(self, name: str) -> None:
         self.image.save(ROOT / "docs" / "images" / f"configs_{name}.jpg", quality=82, optimize=True)
@@ -110,7 +119,10 @@ def camera_sheet(looks: Looks) -> None:
                   [f"as {key.replace('_', ' ')}" for key in ready_made.CAMERAS])
     for row, key in enumerate(ready_made.CAMERAS):
         for column, other in enumerate(ready_made.CAMERAS):
-            sheet.put(row, column, looks.before if key == other else looks.shown(f"{key}_as_{other}"))
+            if key == other:
+                sheet.put(row, column, looks.before)
+            else:
+                sheet.put_difference(row, column, looks.before, looks.shown(f"{key}_as_{other}"))
     sheet.save("cameras")
 
 

@@ -31,7 +31,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         day = folder / "day.exr"
-        pictures.write_exr(day, pictures.photograph(arguments.photograph))
+        pictures.write_exr(day, pictures.scene(pictures.scikit_image(arguments.photograph)))
 
         def relit(before: Path, name: str, light_in: str, light_out: str, balanced: str, adaptation: str) -> Path:
             after = folder / f"{name}.exr"

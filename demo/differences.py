@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from pictures import photograph, read_exr, view, write_exr
+from pictures import read_exr, scene, scikit_image, view, write_exr
 
 ROOT = Path(__file__).resolve().parent.parent
 RECIPE = ROOT / "demo" / "files" / "look.yaml"
@@ -39,7 +39,7 @@ def labelled(panel, text):
 
 def main():
     lutgen = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build" / "install" / "bin") / "lutgen"
-    shot = small(photograph("astronaut.png"))
+    shot = small(scene(scikit_image("astronaut.png")))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_exr(folder / "shot.exr", shot)

@@ -17,12 +17,13 @@ import numpy as np
 import OpenEXR
 from PIL import Image
 
+from pictures import BRADFORD, acescg_from_srgb, view
+
 ROOT = Path(__file__).resolve().parent.parent
 WIDTH, HEIGHT, SAMPLES = 216, 144, 384
 LIGHTS = {"D65": "{illuminant: D65}", "A": "{illuminant: A}", "FL11": "{illuminant: FL11}", "HP1": "{illuminant: HP1}",
           "365 nm": "{wavelengths: [355, 365, 375], values: [0, 700, 0]}"}
 SRGB = np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]])
-BRADFORD = np.array([[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]])
 D65 = np.array([0.95047, 1.0, 1.08883])
 
 
@@ -78,10 +79,9 @@ def main():
                 xyz = xyz @ (np.linalg.inv(BRADFORD) @ np.diag(gain) @ BRADFORD).T * (0.3 / floor[1])
             else:
                 xyz = xyz * (0.5 / np.percentile(xyz[..., 1], 99))
-            rgb = np.clip(xyz @ SRGB.T, 0, 1)
-            panels.append(np.where(rgb <= 0.0031308, 12.92 * rgb, 1.055 * rgb ** (1 / 2.4) - 0.055))
+            panels.append(view(xyz @ SRGB.T @ acescg_from_srgb().T))
             print(name, "floor", floor)
-    Image.fromarray(np.round(np.concatenate(panels, axis=1) * 255).astype(np.uint8)).save(out, quality=93, subsampling=0)
+    Image.fromarray(np.concatenate(panels, axis=1)).save(out, quality=93, subsampling=0)
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ SETTINGS = [
 
 
 def main():
-    photograph = pictures.photograph("coffee.png")
+    photograph = pictures.scene(pictures.scikit_image("coffee.png"))
     cells = [(label, pictures.view(rendered(photograph, settings))) for label, settings in SETTINGS]
     contact_sheet.sheet([cells[:3], cells[3:]], 420).save(sys.argv[1], quality=88)
     return 0

@@ -3,8 +3,8 @@
 
     METAMER_BIN=build/release/bin build/venv/bin/python demo/ofx_still.py IN.png OUT.png --set outputIlluminant=HP1
 
-IN is any 8-bit sRGB picture that Pillow reads, or the name of one of scikit-image's photographs (astronaut.png). It is made
-linear ACEScg for the plug-in, and its result is shown as sRGB again. What the effect says goes to stderr.
+IN is any 8-bit sRGB picture that Pillow reads, or the name of one of scikit-image's photographs (astronaut.png). Linear ACEScg
+goes to the plug-in: the light that the demo's view shows as that picture; its result comes through the view again. What the effect says goes to stderr.
 """
 
 import argparse
@@ -48,7 +48,7 @@ def main():
     parser.add_argument("--load", help="file that --save wrote")
     given = parser.parse_args()
     options = [word for key in ("save", "load") if getattr(given, key) for word in (f"--{key}", getattr(given, key))]
-    source = pictures.opened(given.input) if Path(given.input).exists() else pictures.photograph(given.input)
+    source = pictures.scene(given.input if Path(given.input).exists() else pictures.scikit_image(given.input))
     try:
         settings = dict(setting.split("=", 1) for setting in given.set)
     except ValueError:

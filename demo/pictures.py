@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures in and out: public photographs, scene-linear ACEScg EXR, and an sRGB view."""
+"""Pictures in and out: public photographs, scene-linear ACEScg EXR, and the one view through which the demo shows them."""
 
 from __future__ import annotations
 
@@ -8,11 +8,17 @@ from pathlib import Path
 
 import numpy as np
 import OpenEXR
+import PyOpenColorIO as ocio
 from PIL import Image
 
 # CIE 1931 xy of primaries and white. sRGB: IEC 61966-2-1. ACEScg: S-2014-004 (AP1, ACES white).
 SRGB = ((0.64, 0.33), (0.30, 0.60), (0.15, 0.06)), (0.3127, 0.3290)
 ACESCG = ((0.713, 0.293), (0.165, 0.830), (0.128, 0.044)), (0.32168, 0.33767)
+# From ACEScg to an sRGB screen as film would show it: highlights roll off and lose their colour, in place of clipping.
+VIEW = ("ACEScg_to_ACES2065-1", "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-100nit-REC709_2.0", "DISPLAY - CIE-XYZ-D65_to_sRGB")
+VIEW_NAME = "ACES 2.0, SDR, 100 nits, Rec.709"
+# A photograph's white, undone by the view, is as bright as this code, some 20; the whole of it would be 128.
+BRIGHTEST_CODE = 0.98
 BRADFORD = np.array([[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]])
 
 
@@ -45,19 +51,45 @@ def opened(file: Path | str) -> np.ndarray:
     return (linear @ acescg_from_srgb().T).astype(np.float32)
 
 
-def photograph(name: str) -> np.ndarray:
-    """A photograph of scikit-image's own data folder, as opened() gives it."""
+def scikit_image(name: str) -> Path:
+    """A photograph of scikit-image's own data folder."""
     package = find_spec("skimage")
     if package is None or package.origin is None:
         raise FileNotFoundError("scikit-image is not installed: run script/bootstrap")
-    return opened(Path(package.origin).parent / "data" / name)
+    return Path(package.origin).parent / "data" / name
+
+
+def photograph(name: str) -> np.ndarray:
+    """One of scikit-image's photographs, as opened() gives it."""
+    return opened(scikit_image(name))
+
+
+def scene(file: Path | str) -> np.ndarray:
+    """The light that the view shows as this 8-bit sRGB picture, ACEScg: so what is not relit looks as it did."""
+    with Image.open(file) as picture:
+        codes = np.asarray(picture.convert("RGB"), dtype=np.float32) / 255
+    return _through(np.minimum(codes, BRIGHTEST_CODE), ocio.TRANSFORM_DIR_INVERSE)
 
 
 def view(acescg: np.ndarray) -> np.ndarray:
-    """sRGB-encoded 8-bit view of scene-linear ACEScg: matrix, clip to 0...1, curve. No tone mapping."""
+    """What a screen shows of scene-linear ACEScg: 8-bit sRGB, by VIEW."""
+    return np.round(np.clip(_through(acescg, ocio.TRANSFORM_DIR_FORWARD), 0, 1) * 255).astype(np.uint8)
+
+
+def swatch(acescg: np.ndarray) -> np.ndarray:
+    """A colour as such, without a view: matrix, clip to 0...1, sRGB's curve, 8 bits."""
     linear = np.clip(acescg.astype(np.float64) @ np.linalg.inv(acescg_from_srgb()).T, 0, 1)
     encoded = np.where(linear <= 0.0031308, linear * 12.92, 1.055 * linear ** (1 / 2.4) - 0.055)
     return np.round(encoded * 255).astype(np.uint8)
+
+
+def _through(pixels: np.ndarray, direction: ocio.TransformDirection) -> np.ndarray:
+    """VIEW, or its inverse, on height x width x 3."""
+    steps = [ocio.BuiltinTransform(style=style, direction=direction) for style in VIEW]
+    group = ocio.GroupTransform(steps if direction == ocio.TRANSFORM_DIR_FORWARD else steps[::-1])
+    result = np.ascontiguousarray(pixels, dtype=np.float32).copy()
+    ocio.Config.CreateRaw().getProcessor(group).getDefaultCPUProcessor().applyRGB(result)
+    return result
 
 
 def write_exr(path: Path, pixels: np.ndarray) -> None:

@@ -93,7 +93,7 @@ def plot_vector_field(path: Path, before: np.ndarray, after: dict[tuple[str, int
         len(rows), len(LIGHTS), figsize=(15, 11), sharex=True, sharey=True, constrained_layout=True
     )
     start = chromaticity(before)
-    colours = pictures.view(before / before.max(axis=1, keepdims=True)) / 255 * 0.85
+    colours = pictures.swatch(before / before.max(axis=1, keepdims=True)) / 255 * 0.85
     for row, (percent, title) in zip(axes, rows.items()):
         for panel, light in zip(row, LIGHTS):
             end = chromaticity(after[light.key, percent])

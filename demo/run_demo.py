@@ -75,7 +75,7 @@ def main() -> int:
     names = [f"day_to_{light.key}_{percent:03d}" for light in plots.LIGHTS for percent in ADAPTATIONS]
 
     with step(f"{len(PHOTOGRAPHS)} photographs to scene-linear ACEScg"):
-        before = {name: pictures.photograph(f"{name}.png") for name in PHOTOGRAPHS}
+        before = {name: pictures.scene(pictures.scikit_image(f"{name}.png")) for name in PHOTOGRAPHS}
         for name, pixels in before.items():
             pictures.write_exr(images / f"{name}.exr", pixels)
 
@@ -101,7 +101,7 @@ def main() -> int:
                     after = pictures.read_exr(images / f"{picture}_day_to_{light.key}_{percent:03d}.exr")
                     row.append((f"{light.title}, eye adapted {percent} %", pictures.view(after)))
                 rows.append(row)
-        heading = "Shot in daylight (D65), shown under other lights. View: ACEScg to sRGB, clipped."
+        heading = f"Shot in daylight (D65), shown under other lights. View: {pictures.VIEW_NAME}."
         contact_sheet.sheet(rows, 420, heading).save(out / "contact_sheet.png")
         # The README's picture: the first photograph under every light, not adapted and fully adapted.
         shown = [[rows[0][0], *(row[column] for row in rows[: len(plots.LIGHTS)])] for column in (1, len(ADAPTATIONS))]

@@ -194,13 +194,20 @@ function fill(select, entries, chosen) {
   }
 }
 
+// ---- what the page begins with: where it stands within a report, the report's recipe ----
+function begun(name, usual, entries) {
+  const said = document.documentElement.dataset[`start${name[0].toUpperCase()}${name.slice(1)}`];
+  return said === undefined || (entries && !entries.some(entry => entry.name === said)) ? usual : said;
+}
+
 async function begin() {
   worker = startWorker();
   const wasm = await engineBytes();
   const {names} = await ask('begin', {wasm}, [wasm]);
-  fill(controls.in, names.illuminants, 'D65');
-  fill(controls.out, names.illuminants, 'HP1');
-  fill(controls.gel, names.filters);
+  fill(controls.in, names.illuminants, begun('in', 'D65', names.illuminants));
+  fill(controls.out, names.illuminants, begun('out', 'HP1', names.illuminants));
+  fill(controls.gel, names.filters, begun('gel', '', names.filters));
+  for (const name of ['density', 'adaptation']) controls[name].value = begun(name, controls[name].value);
   fill(at('space'), names.spaces.map(name => ({name})), 'ACEScct');
   await takePicture(await (await fetch(at('photograph').src)).blob(), 'The photograph that comes with the page');
   for (const control of Object.values(controls)) control.addEventListener('input', change);

@@ -6,14 +6,20 @@ import hashlib
 import html.parser
 import io
 import json
+import os
 import re
+import shutil
+import subprocess
 import unittest
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
 from lutgen import LutgenTest
+from test_compare import write_exr
 
+ROOT = Path(__file__).resolve().parents[2]
 NIGHT = "metamer: 1\nname: night\nspace: ACEScg\ninput: {illuminant: D65}\noutput: {illuminant: HP1, adaptation: 0.5}\n"
 # Half the time, for what does not depend on the scene.
 QUICK = NIGHT + "scene: {kind: smooth}\n"
@@ -135,6 +141,58 @@ class Report(LutgenTest):
         applied = np.asarray(Image.open(self.folder / "night.png"), float)
         self.assertLess(abs(pictures[1] - applied).mean(), 2)
         self.assertGreater(abs(pictures[1] - shown).mean(), 10)
+
+    def test_scenes_roll_off_and_stills_stay(self):
+        """The page's own photographs come back as they are; light beyond a screen's white is told apart."""
+        page = self.page(recipe=QUICK)
+        own = ROOT / "lutgen" / "pictures" / "report" / "page" / "astronaut.jpg"
+        shown, there = self.pictures(page)[0], np.asarray(Image.open(own).convert("RGB"), float)
+        self.assertEqual(shown.shape, there.shape)
+        self.assertLess(np.abs(shown - there).mean(), 2)
+        self.assertIn("'s view, which rolls highlights off", html.unescape(self.text))
+        grey = np.repeat(np.repeat(np.float32([[0.18, 1, 2, 8]]), 16, 0), 16, 1)
+        write_exr(self.folder / "steps.exr", np.repeat(grey[..., None], 3, axis=2))
+        shown = self.pictures(self.page("--picture", "steps.exr", "--picture-space", "ACEScg", recipe=QUICK))[0][8, 8::16, 0]
+        self.assertTrue(np.all(np.diff(shown) > 10), shown)
+        self.assertLess(shown[-1], 250)
+        self.assertTrue(75 < shown[0] < 125, shown)
+
+    def test_live(self):
+        """The playground in the page: a stand-in for it here, and what is told where there is none."""
+        install = self.folder / "install"
+        (install / "bin").mkdir(parents=True)
+        for program in ("lutgen", "lutgen-pictures"):
+            shutil.copy(Path(os.environ["METAMER_BIN"]) / program, install / "bin")
+        (self.folder / "gel.yaml").write_text(QUICK.replace("adaptation: 0.5", 'filters: [{name: "Lee 204 Full C.T. Orange", density: 0.5}], adaptation: 0.25'))
+
+        def run():
+            return subprocess.run([install / "bin" / "lutgen", "report", "gel.yaml", "--live", "-o", "live.html", "--quiet"], cwd=self.folder,
+                                  capture_output=True, text=True, timeout=300)
+
+        missing = run()
+        self.assertEqual((missing.returncode, missing.stderr.count("\n")), (1, 1), missing.stderr)
+        self.assertIn("script/playground", missing.stderr)
+        self.assertFalse((self.folder / "live.html").exists())
+        page = install / "share" / "metamer" / "playground" / "metamer.html"
+        page.parent.mkdir(parents=True)
+        page.write_text('<!doctype html>\n<html lang="en">\n<p title="it\'s">&amp; <b>here</b></p></html>', encoding="utf-8")
+        made = run()
+        self.assertEqual((made.returncode, made.stderr), (0, ""))
+        self.text = (self.folder / "live.html").read_text(encoding="utf-8")
+        report = Page(self.text)
+        self.readable(report)
+        frame, = report.named("iframe")
+        self.assertTrue(frame["title"])
+        inner = Page(frame["srcdoc"])
+        self.assertEqual(inner.named("html"), [{"lang": "en", "data-start-in": "D65", "data-start-out": "HP1", "data-start-adaptation": "0.25",
+                                                "data-start-gel": "Lee 204 Full C.T. Orange", "data-start-density": "0.5"}])
+        self.assertEqual(inner.named("p"), [{"title": "it's"}])
+        self.assertIn("wasm-unsafe-eval", report.named("meta")[3]["content"])
+        self.assertNotIn("wasm-unsafe-eval", self.plain_report())
+
+    def plain_report(self):
+        self.page(recipe=QUICK)
+        return self.text
 
     @staticmethod
     def still():

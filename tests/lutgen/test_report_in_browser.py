@@ -10,13 +10,17 @@ import shutil
 import subprocess
 import sys
 import unittest
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
-from lutgen import LutgenTest
-from test_report import QUICK
+sys.path.append(str(Path(__file__).resolve().parents[1] / "playground"))
+from devtools import Page as DrivenPage  # noqa: E402
+from lutgen import LutgenTest  # noqa: E402
+from test_report import QUICK  # noqa: E402
 
+PLAYGROUND = Path(os.environ["METAMER_BIN"]).parent / "share" / "metamer" / "playground" / "metamer.html"
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 # A frame as wide as the window that is tested: a browser's own window has a least width.
 PROBE = """<!doctype html><body style="margin:0"><iframe id="page" style="width:{width}px;height:900px;border:0"></iframe><pre id="found"></pre>
@@ -67,6 +71,27 @@ class Browser(LutgenTest):
             self.assertEqual(found[1], "slider 50 50% inset(0px 0px 0px 50%) 50 % before, 50 % after")
             self.assertEqual(found[2], "slider 70 70% inset(0px 0px 0px 70%) 70 % before, 30 % after")
             self.assertEqual(found[3:], ["pictures true", "done"])
+
+    @unittest.skipUnless(PLAYGROUND.exists(), "script/playground was not run")
+    def test_the_playground_runs_within(self):
+        (self.folder / "live.yaml").write_text(QUICK.replace("D65", "A").replace("HP1", "FL11"))
+        self.assertWorks("report", "live.yaml", "--live", "-o", "live.html")
+        self.assertLess((self.folder / "live.html").stat().st_size, 3_000_000)
+        page = DrivenPage(self.folder / "live profile")
+        self.addCleanup(page.close)
+        for width in (390, 1280):
+            page.resize(width, 900)
+            page.open((self.folder / "live.html").as_uri())
+            page.wait("document.querySelector('.live')?.contentDocument?.documentElement.dataset.first !== undefined")
+            self.assertEqual(page.evaluate("document.documentElement.scrollWidth"), width)
+        inner = "document.querySelector('.live').contentDocument"
+        self.assertEqual(page.evaluate(f"['in', 'out', 'adaptation'].map(id => {inner}.getElementById(id).value)"), ["A", "FL11", "0.5"])
+        self.assertGreater(page.evaluate(f"{inner}.getElementById('swatches').children.length"), 0)
+        page.evaluate(f"(() => {{ const c = {inner}.getElementById('out'); {inner}.documentElement.dataset.state = 'waiting';"
+                      "c.value = 'D50'; c.dispatchEvent(new Event('input')); })()")
+        page.wait(f"{inner}.documentElement.dataset.state === 'rest'")
+        self.assertIn("D50", page.evaluate(f"{inner}.getElementById('recipe').textContent"))
+        self.assertEqual(page.errors, [])
 
     def test_it_is_dark_where_the_reader_is(self):
         def lightness(*arguments):

@@ -38,7 +38,7 @@ PixelFunction eachColour(const std::function<double(double)>& curve) {
 
 PictureSpace displaySpace(const std::string& name, const ocio::DisplayCurve& curve, const spectral::RgbSpace& linear) {
   return {name, linear, eachColour([curve](double signal) { return curve.decoded(signal); }),
-          eachColour([curve](double light) { return curve.encoded(light); })};
+          eachColour([curve](double light) { return curve.encoded(light); }), true};
 }
 
 PictureSpace fromWorkingSpace(const ocio::WorkingSpace& space) {

@@ -18,6 +18,7 @@ struct PictureSpace {
   spectral::RgbSpace linear;
   PixelFunction decode;  ///< to `linear`; empty: pixels are linear
   PixelFunction encode;
+  bool isDisplay = false;  ///< a screen's signal: what it shows is what the picture is to look like
   bool isLinear() const { return !decode; }
 };
 

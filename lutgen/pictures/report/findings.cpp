@@ -124,8 +124,11 @@ std::string noiseWords(const std::vector<SurfaceGroup>& groups, const ocio::Cert
       certificate.pixels.noisyCodes);
 }
 
-std::string pictureWords(const ShownPicture& picture, const std::vector<BakedForm>& forms) {
-  std::string words = picture.title + ", pixels taken as " + picture.pixels + ".";
+std::string pictureWords(const ShownPicture& picture, const std::vector<BakedForm>& forms, const std::string& view) {
+  std::string words =
+      picture.title + ", pixels taken as " + picture.pixels + "; seen " +
+      (picture.isFilm ? "through " + view + "'s view, which rolls highlights off as film does."
+                      : "as an sRGB screen shows them, clipped where they are brighter than its white.");
   for (std::size_t k = 0; k < forms.size(); ++k) {
     words += formatted(" %s: 99 of 100 pixels within %.2f of the engine.", forms[k].label.c_str(), picture.p99[k]);
   }

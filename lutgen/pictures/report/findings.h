@@ -17,7 +17,8 @@ std::vector<std::string> findings(const std::vector<BakedForm>& forms, const std
 /// How noise grows, beside plain adaptation.
 std::string noiseWords(const std::vector<SurfaceGroup>& groups, const ocio::Certificate& certificate);
 
-/// Under a picture: what its pixels are, and how far the files are from the engine on it.
-std::string pictureWords(const ShownPicture& picture, const std::vector<BakedForm>& forms);
+/// Under a picture: what its pixels are, how it is seen, and how far the files are from the engine on it.
+/// @param view  the film-like view's name
+std::string pictureWords(const ShownPicture& picture, const std::vector<BakedForm>& forms, const std::string& view);
 
 }  // namespace metamer::lutgen

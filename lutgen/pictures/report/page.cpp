@@ -92,7 +92,7 @@ data picturesData(const PageContents& contents) {
     entry.set("height", std::to_string(picture.height));
     entry.set("before", base64(picture.before));
     entry.set("after", base64(picture.after));
-    entry.set("caption", pictureWords(picture, contents.forms));
+    entry.set("caption", pictureWords(picture, contents.forms, contents.view));
     list.push_back(entry);
   }
   return list;
@@ -206,6 +206,8 @@ std::string htmlOf(const PageContents& contents) {
   page.set("adaptationText", adaptationText(contents.recipe.adaptation));
   page.set("findings", listOf(findings(contents.forms, contents.groups, contents.pictures)));
   page.set("pictures", picturesData(contents));
+  page.set("isLive", data(!contents.live.empty()));
+  page.set("live", contents.live);
   page.set("spectra", chartsData(contents.spectra));
   page.set("groups", groupsData(contents));
   page.set("hasSets", data(!certificate.surfaces.empty()));

@@ -17,6 +17,8 @@ struct PageContents {
   std::vector<BakedForm> forms;
   std::vector<SurfaceGroup> groups;
   std::vector<ShownPicture> pictures;
+  std::string view;                ///< the film-like view's name
+  std::string live;                ///< the playground's page; empty: left out
   bool hasOwnPhotographs = false;  ///< pictures are the page's own
   std::vector<Chart> spectra;
   Chart field;

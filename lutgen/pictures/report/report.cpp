@@ -7,6 +7,7 @@
 #include "metamer/spectral/pending_file.h"
 #include "picture_commands.h"
 #include "progress.h"
+#include "report/live.h"
 #include "report/page.h"
 #include "run.h"
 
@@ -21,6 +22,7 @@ struct ReportArguments {
   std::string output;
   std::vector<std::string> pictures;
   std::string pictureSpace;
+  bool isLive = false;
 };
 
 void report(const ReportArguments& arguments) {
@@ -39,22 +41,28 @@ void report(const ReportArguments& arguments) {
   const auto config = ocio::ConfigSource::environment();
   PageContents contents;
   contents.recipe = sip::readRecipe(spectral::pathOf(arguments.recipe));
+  if (arguments.isLive) {
+    contents.live = livePage(contents.recipe);
+  }
   const PictureSpace pixels = pictureSpaceNamed(contents.recipe.space, "recipe", library, config);
   const sip::TransformSpec spec = sip::resolve(contents.recipe, library, pixels.linear);
   note(sip::notesOf(contents.recipe, spec));
   const sip::SpectralTransform transform(spec);
   const Screen screen(pixels.linear, library.colourSpace("Rec.709").linear);
+  const FilmView film(pixels.linear, library.colourSpace("ACES2065-1").linear);
   const WorkFolder folder;
   contents.hasOwnPhotographs = arguments.pictures.empty();
   contents.pictures = contents.hasOwnPhotographs
-                          ? ownPhotographs(pixels, library, folder)
+                          ? ownPhotographs(pixels, film, library, folder)
                           : shownPictures(arguments.pictures, arguments.pictureSpace, pixels, library, config);
   {
     Progress progress(arguments.output);
     contents.forms =
         bakedForms(contents.recipe, library, config, folder, [&progress](double share) { progress.show(0.8 * share); });
   }
-  relight(contents.pictures, transform, contents.forms, screen, folder);
+  relight(contents.pictures, transform, contents.forms, screen, film, folder,
+          arguments.isLive ? kLargestJpegBesideEngine : kLargestJpeg);
+  contents.view = film.name();
   contents.spectra = spectraCharts(spec, screen);
   contents.field = fieldChart(spec, transform, screen);
   contents.groups = knownSurfaces(spec, transform, library);
@@ -86,6 +94,8 @@ void addReport(CLI::App& application) {
       ->take_all();
   command->add_option("--picture-space", arguments->pictureSpace,
                       "What the pictures' pixels are, where the files do not say: sRGB, ACEScct, \"Gamma 2.4\" ...");
+  command->add_flag("--live", arguments->isLive,
+                    "With the playground in the page: other lights, gels and pictures, by the engine itself");
   command->callback([arguments] { report(*arguments); });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "metamer/spectral/formatted.h"
+#include "metamer/spectral/srgb_curve.h"
 
 namespace metamer::lutgen {
 
@@ -18,10 +19,16 @@ Eigen::Vector3f Screen::codes(const Eigen::Vector3f& rgb) const {
   for (Eigen::Index k = 0; k < 3; ++k) {
     const float value = pixel[static_cast<std::size_t>(k)];
     const float clipped = std::isnan(value) ? 0.0F : std::clamp(value, 0.0F, 1.0F);
-    // IEC 61966-2-1.
-    shown[k] = clipped <= 0.0031308F ? 12.92F * clipped : 1.055F * std::pow(clipped, 1.0F / 2.4F) - 0.055F;
+    shown[k] = static_cast<float>(spectral::srgbFromLinear(clipped));
   }
   return shown;
+}
+
+void Screen::show(std::span<float> rgba) const {
+  for (std::size_t at = 0; at + 4 <= rgba.size(); at += 4) {
+    Eigen::Map<Eigen::Vector3f> pixel(&rgba[at]);
+    pixel = codes(pixel);
+  }
 }
 
 std::string Screen::hex(const Eigen::Vector3d& rgb) const {

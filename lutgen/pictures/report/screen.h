@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <string>
 
 #include "apply/picture_space.h"
@@ -18,6 +19,8 @@ class Screen {
 
   /// Red, green, blue, 0 ... 1, with the screen's curve. What is no number is 0.
   Eigen::Vector3f codes(const Eigen::Vector3f& rgb) const;
+  /// RGBA in place; alpha is left alone.
+  void show(std::span<float> rgba) const;
   /// "#1f5fa8"
   std::string hex(const Eigen::Vector3d& rgb) const;
 

@@ -25,8 +25,6 @@ namespace fs = std::filesystem;
 using spectral::InputError;
 
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
-/// Of one JPEG file: sixteen of them make a page of less than 3 MB.
-constexpr std::size_t kLargestJpeg = 120000;
 /// Every so-manieth pixel is solved exactly.
 constexpr std::size_t kSampleStep = 16;
 
@@ -123,21 +121,21 @@ ShownPicture shownPicture(const fs::path& path, const std::string& file, const s
   ShownPicture shown;
   shown.title = spectral::utf8(spectral::pathOf(file).filename());
   shown.pixels = from.name;
+  shown.isFilm = !from.isDisplay;
   shown.width = shrinker.width();
   shown.height = shrinker.height();
   shown.linear = shrinker.rgba();
   return shown;
 }
 
-/// As a JPEG file, as small as need be.
-std::string jpegOf(const ShownPicture& picture, const std::vector<float>& linear, const Screen& screen,
-                   const fs::path& file) {
+/// As a JPEG file, as small as need be. @param signals  RGBA, 0 ... 1
+std::string jpegOf(const ShownPicture& picture, const std::vector<float>& signals, const fs::path& file,
+                   std::size_t largest) {
   OIIO::ImageBuf pixels(OIIO::ImageSpec(picture.width, picture.height, 3, OIIO::TypeDesc::FLOAT));
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       const std::size_t at = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + x);
-      const Eigen::Vector3f shown = screen.codes(Eigen::Map<const Eigen::Vector3f>(&linear[at]));
-      pixels.setpixel(x, y, 0, shown.data(), 3);
+      pixels.setpixel(x, y, 0, &signals[at], 3);
     }
   }
   std::string bytes;
@@ -147,7 +145,7 @@ std::string jpegOf(const ShownPicture& picture, const std::vector<float>& linear
       throw InputError(picture.title, "picture of the report", "", "cannot be written: " + pixels.geterror());
     }
     bytes = spectral::readTextFile(file);
-    if (bytes.size() <= kLargestJpeg) {
+    if (bytes.size() <= largest) {
       break;
     }
   }
@@ -182,26 +180,32 @@ std::vector<ShownPicture> shownPictures(const std::vector<std::string>& files, c
   return pictures;
 }
 
-std::vector<ShownPicture> ownPhotographs(const PictureSpace& space, const spectral::DataLibrary& library,
-                                         const WorkFolder& folder) {
-  const PictureSpace srgb = pictureSpaceNamed("sRGB", "photograph", library, ocio::ConfigSource());
+std::vector<ShownPicture> ownPhotographs(const PictureSpace& space, const FilmView& film,
+                                         const spectral::DataLibrary& library, const WorkFolder& folder) {
+  const PictureSpace shown{
+      "what " + film.name() + "'s view shows", space.linear, [&film](std::span<float> rgba) { film.undo(rgba); }, {}};
   std::vector<ShownPicture> pictures;
   for (const auto& [name, title] : {std::pair("astronaut", "Portrait"), std::pair("coffee", "Coffee")}) {
     const std::string file = std::string(name) + ".jpg";
-    pictures.push_back(shownPicture(folder.write(file, pagePart(file)), file, srgb, space, library));
+    pictures.push_back(shownPicture(folder.write(file, pagePart(file)), file, shown, space, library));
     pictures.back().title = title;
   }
   return pictures;
 }
 
 void relight(std::vector<ShownPicture>& pictures, const sip::SpectralTransform& transform,
-             const std::vector<BakedForm>& forms, const Screen& screen, const WorkFolder& folder) {
+             const std::vector<BakedForm>& forms, const Screen& screen, const FilmView& film, const WorkFolder& folder,
+             std::size_t largestJpeg) {
   const sip::HomogeneousMap map = sip::buildHomogeneousMap(transform, sip::kDefaultMapTolerance, inParallel);
+  const auto signals = [&](const ShownPicture& picture, std::vector<float> rgba) {
+    picture.isFilm ? film.show(rgba) : screen.show(rgba);
+    return rgba;
+  };
   for (ShownPicture& picture : pictures) {
     std::vector<float> after(picture.linear.size());
     map.apply(picture.linear, after);
-    picture.before = jpegOf(picture, picture.linear, screen, folder.place("before.jpg"));
-    picture.after = jpegOf(picture, after, screen, folder.place("after.jpg"));
+    picture.before = jpegOf(picture, signals(picture, picture.linear), folder.place("before.jpg"), largestJpeg);
+    picture.after = jpegOf(picture, signals(picture, after), folder.place("after.jpg"), largestJpeg);
     const std::vector<float> sample = sampled(picture.linear);
     std::vector<float> exact = sample;
     transform.apply(exact);
