@@ -16,6 +16,8 @@
 #include <unistd.h>
 #if defined(__APPLE__)
 #include <mach-o/dyld.h>
+#elif defined(__linux__)
+#include <sys/auxv.h>
 #endif
 #endif
 
@@ -55,7 +57,15 @@ std::filesystem::path programFolder() {
   return std::filesystem::canonical(buffer.data(), error).parent_path();
 #else
   std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  const std::filesystem::path told = std::filesystem::read_symlink("/proc/self/exe", error);
+#if defined(__linux__)
+  // Where /proc is not mounted: the name that the program was started by, from the folder it was started in.
+  const auto* const started = reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+  if (told.empty() && started != nullptr) {
+    return std::filesystem::canonical(started, error).parent_path();
+  }
+#endif
+  return told.parent_path();
 #endif
 }
 
