@@ -19,6 +19,7 @@
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/text.h"
 #include "overrides.h"
+#include "positive_number.h"
 #include "progress.h"
 #include "run.h"
 #include "words.h"
@@ -238,7 +239,7 @@ void addBake(CLI::App& application) {
   command
       ->add_option("--tolerance", arguments->tolerance,
                    "99th percentile of CIEDE2000 to hold, with the cheapest that does: nothing, a matrix, a table")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   command->add_option("--stops", arguments->stops, "Exposures to judge by, round 18 % grey: LOWEST HIGHEST")
       ->expected(2)
       ->check(CLI::Range(-24, 24));

@@ -90,7 +90,7 @@ void addConfig(CLI::App& application) {
   command
       ->add_option("--tolerance", arguments->options.tolerance,
                    "99th percentile of CIEDE2000 to hold with the least: nothing, a matrix, tables up to --size")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 100.0));
   command->callback([arguments] { writeConfig(*arguments); });
 }
 

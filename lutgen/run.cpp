@@ -61,12 +61,6 @@ void refuseWhatIsNotFinite(const CLI::App& command) {
   }
 }
 
-/// CLI11 prints the ends of a range in full: the largest number has 309 digits.
-std::string usageText(const std::string& said) {
-  const std::size_t range = said.find(" not in range 0.000000 to 179769313486231");
-  return range == std::string::npos ? said : said.substr(0, range) + " is too small; give a number above 0";
-}
-
 /// What all commands have in common.
 void addToAll(CLI::App& application) {
   for (CLI::App* command : application.get_subcommands([](const CLI::App*) { return true; })) {
@@ -152,7 +146,7 @@ int run(int argumentCount, char** arguments, const std::function<void(CLI::App&)
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
       return application.exit(error);  // help or version, on stdout
     }
-    return fail(usageText(error.what()) + "; see lutgen --help", kUsageError);
+    return fail(std::string(error.what()) + "; see lutgen --help", kUsageError);
   } catch (const std::bad_alloc&) {
     return fail("not enough memory", kFailure);
   } catch (const std::exception& error) {

@@ -11,6 +11,7 @@
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/storage_file.h"
 #include "metamer/spectral/text.h"
+#include "positive_number.h"
 #include "run.h"
 #include "storage_judge.h"
 
@@ -285,7 +286,7 @@ void addSpectrum(CLI::App& application) {
       ->add_option(
           "--tolerance", options->tolerance,
           "The fewest bytes whose mean CIEDE2000 is at most this: over all reflectances and lights, of each light")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->excludes("--numbers");
   command->add_option("--lights", options->lights, "What reflectances are judged under; left out: A FL11 HP1 LED-RGB1");
   command->callback([options] { pack(*options); });

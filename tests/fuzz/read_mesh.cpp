@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const TemporaryInput input(data[0] % 2 == 0 ? ".obj" : ".ply", data + 1, size - 1);
   try {
-    const auto mesh = spectral_ref::readMesh(spectral_ref::SceneValue::ofText(input.path().filename().string(), "mesh"),
+    const auto mesh = spectral_ref::readMesh(spectral_ref::YamlValue::ofText(input.path().filename().string(), "mesh"),
                                              input.path().parent_path());
     require(!mesh.triangles.empty());
     for (const auto& triangle : mesh.triangles) {

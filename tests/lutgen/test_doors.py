@@ -169,7 +169,7 @@ class Outputs(LutgenTest):
             with self.subTest(says):
                 self.assertFails(*arguments, says=[says])
         self.assertFails("bake", *LIGHTS, "-o", "a.ctf", "--tolerance", "-1", code=2,
-                         says=["--tolerance: Value -1 is too small; give a number above 0; see"])
+                         says=["--tolerance: '-1' is too small; give a number above 0; see"])
 
     def test_certificates_of_any_depth_and_size_are_refused_at_once(self):
         """Nesting that would overrun the stack, and fields whose number squared is the time that they take."""

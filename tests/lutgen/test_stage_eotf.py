@@ -97,7 +97,7 @@ class Ramps(LutgenTest):
         self.assertFails("stage", "solve", "stage.yaml", "-o", "x.json", says=["ramps.red", "4 numbers"])
         row = "[[-1, 0, 0, 0], [1, 1, 0, 0]]"
         Stage().write(self.folder, extra=f"ramps: {{red: {row}, green: {row}, blue: {row}}}\n")
-        self.assertFails("stage", "solve", "stage.yaml", "-o", "x.json", says=["ramps.red '-1'", "from 0"])
+        self.assertFails("stage", "solve", "stage.yaml", "-o", "x.json", says=["ramps.red[0] '-1'", "from 0"])
         row = "[[0, 0, 0, 0], [1, 1, 0, 0]]"
         Stage().write(self.folder, extra=f"ramps: {{red: {row}, green: {row}, blue: {row}}}\n")
         self.assertFails("stage", "solve", "stage.yaml", "-o", "x.json", says=["stage.yaml: ramps.red", "drives"])

@@ -8,6 +8,7 @@
 #include "apply/transform.h"
 #include "metamer/spectral/formatted.h"
 #include "picture_commands.h"
+#include "positive_number.h"
 #include "run.h"
 
 namespace metamer::lutgen {
@@ -95,7 +96,7 @@ void addPictureOptions(CLI::App& command, ApplyOptions& options) {
   command.add_option("--compression", options.picture.compression,
                      "Compression of the written file: zip, piz, dwaa ...; left out: as it is");
   command.add_option("--max-pixels", options.picture.mostPixels, "Largest picture that is read; default 2147483648")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "exr/zip_block.h"
 #include "metamer/spectral/path_text.h"
-#include "metamer/spectral/png_check.h"
+#include "metamer/spectral/picture_file.h"
 
 namespace metamer::lutgen {
 namespace {

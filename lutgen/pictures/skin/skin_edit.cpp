@@ -12,6 +12,7 @@
 #include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/text.h"
+#include "positive_number.h"
 #include "run.h"
 #include "skin/skin_commands.h"
 #include "skin/skin_maps.h"
@@ -206,7 +207,7 @@ void addSkinEdit(CLI::App& skin) {
   command->add_option("--threads", options->threads, "Threads; 0: as many as the machine has")
       ->check(CLI::Range(0, 256));
   command->add_option("--max-pixels", options->mostPixels, "Largest picture that is read; default 2147483648")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   command->callback([options, command] { edit(*options, *command); });
 }
 

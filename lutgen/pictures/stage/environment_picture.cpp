@@ -7,7 +7,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/path_text.h"
-#include "metamer/spectral/png_check.h"
+#include "metamer/spectral/picture_file.h"
 #include "picture.h"
 
 namespace metamer::lutgen {

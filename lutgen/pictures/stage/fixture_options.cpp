@@ -7,6 +7,7 @@
 
 #include "metamer/sip/pipeline.h"
 #include "metamer/spectral/input_error.h"
+#include "positive_number.h"
 
 namespace metamer::lutgen {
 namespace {
@@ -37,7 +38,7 @@ void addFixtureLimits(CLI::App& command, FixtureLimits& limits) {
   command.add_option("--limits", limits.largest, "Largest drive: one for all, or one an emitter")->expected(1, 64);
   command.add_option("--power", limits.power, "Power at a drive of 1: one for all, or one an emitter")->expected(1, 64);
   command.add_option("--power-budget", limits.budget, "Largest sum of power times drive; needs --power")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveNumber())
       ->needs("--power");
 }
 

@@ -16,6 +16,7 @@
 #include "metamer/spectral/pending_file.h"
 #include "metamer/stage/environment_drive.h"
 #include "metamer/stage/patch_names.h"
+#include "positive_number.h"
 #include "progress.h"
 #include "stage/chart_picture.h"
 #include "stage/drive_picture.h"
@@ -220,7 +221,7 @@ void addStageEnvironment(CLI::App& stage) {
       ->add_option("--square", options->square,
                    "Width, height and distance of the square that lit the emitters' charts; without it, a whole sphere")
       ->expected(3)
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   addFixtureLimits(*command, options->limits);
   CLI::Option* lights =
       command->add_option("--lights", options->lights, "Positions of lights: CSV with the header name,x,y,z");

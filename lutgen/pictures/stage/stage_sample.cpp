@@ -12,6 +12,7 @@
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/stage/emitter_model.h"
 #include "metamer/stage/panel_eotf.h"
+#include "positive_number.h"
 #include "stage/chart_picture.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
@@ -136,7 +137,7 @@ void addStageSample(CLI::App& stage) {
   command->add_option("--reflectances", options->reflectances,
                       "What the chart is: SET or FILE; colorchecker by default");
   command->add_option("--saturation", options->saturation, "From this value on a pixel is clipped")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   command->callback([options] { sample(*options); });
 }
 
@@ -153,7 +154,7 @@ void addStageLinearity(CLI::App& stage) {
                    "CSV with the header patch,R,G,B: one channel's drives (in place of patch) as the camera saw them")
       ->required();
   command->add_option("--tolerance", options->tolerance, "Largest distance from a straight line, of full; 0.02")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   command->add_option("--json", options->output, "JSON to write");
   command->callback([options] { linearity(options->series, options->tolerance, options->output); });
 }

@@ -18,6 +18,7 @@
 #include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/text.h"
 #include "picture_commands.h"
+#include "positive_number.h"
 #include "uplift/spectral_rows.h"
 
 namespace metamer::lutgen {
@@ -274,7 +275,7 @@ void addUplift(CLI::App& application) {
   command->add_option("--threads", options->threads, "Threads; 0: as many as the machine has")
       ->check(CLI::Range(0, 256));
   command->add_option("--max-pixels", options->mostPixels, "Largest picture that is read; default 2147483648")
-      ->check(CLI::PositiveNumber);
+      ->check(positiveNumber());
   command->callback([options] { uplift(*options); });
 }
 

@@ -17,7 +17,7 @@
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
-#include "metamer/spectral/yaml_section.h"
+#include "metamer/spectral/yaml_value.h"
 #include "scenes/measured_surfaces.h"
 #include "transform/sides.h"
 
@@ -25,71 +25,69 @@ namespace metamer::sip {
 namespace {
 
 using spectral::InputError;
-using spectral::YamlNode;
-using spectral::YamlSection;
+using spectral::YamlMap;
+using spectral::YamlValue;
 
 constexpr double kLargestDensity = 100.0;
 constexpr const char* kStandardObserver = "CIE 1931 2";
 constexpr const char* kDaylight = "D65";  // what cameras' matrices are made for
 
-RecipeFilter readFilter(const YamlNode& node, const YamlSection& pipeline, const std::string& path) {
-  if (node.kind == YamlNode::Kind::Scalar) {
-    return {pipeline.text(node, "filters"), 1.0};
+RecipeFilter readFilter(const YamlValue& value) {
+  if (value.isScalar()) {
+    return {value.text(), 1.0};
   }
-  const YamlSection section(node, pipeline.where(), path, {"name", "file", "density"});
+  const YamlMap section(value, {"name", "file", "density"});
   RecipeFilter filter;
-  const YamlNode* name = section.find("name");
-  const YamlNode* file = section.find("file");
-  if ((name == nullptr) == (file == nullptr)) {
-    throw section.error(node, path, "", "must have either a name or a file");
+  const auto name = section.find("name");
+  const auto file = section.find("file");
+  if (name.has_value() == file.has_value()) {
+    throw section.error("must have either a name or a file");
   }
-  filter.name = name != nullptr ? section.text(*name, "name") : section.text(*file, "file");
+  filter.name = name ? name->text() : file->text();
   // A file without folder or extension would be taken for a name.
-  if (file != nullptr && filter.name.find('/') == std::string::npos && filter.name.find('\\') == std::string::npos) {
+  if (file && filter.name.find('/') == std::string::npos && filter.name.find('\\') == std::string::npos) {
     filter.name = "./" + filter.name;
   }
   section.read("density", filter.density, 0.0, kLargestDensity);
   return filter;
 }
 
-RecipePipeline readPipeline(const YamlSection& section) {
+RecipePipeline readPipeline(const YamlMap& section) {
   RecipePipeline pipeline;
-  pipeline.illuminant = section.text(
-      section.require("illuminant", "is missing; name the light, such as 'illuminant: D65'"), "illuminant");
+  pipeline.illuminant = section.require("illuminant", "is missing; name the light, such as 'illuminant: D65'").text();
   section.read("observer", pipeline.observer);
-  if (const YamlNode* filters = section.find("filters")) {
-    if (filters->kind != YamlNode::Kind::Sequence) {
-      throw section.error(*filters, section.named("filters"), filters->text, "must be a list, such as [gel.csv]");
+  if (const auto filters = section.find("filters")) {
+    if (!filters->isSequence()) {
+      throw filters->error("must be a list, such as [gel.csv]");
     }
-    for (std::size_t i = 0; i < filters->items.size(); ++i) {
-      pipeline.filters.push_back(
-          readFilter(filters->items[i], section, section.named("filters") + "[" + std::to_string(i) + "]"));
+    for (const YamlValue& filter : filters->items()) {
+      pipeline.filters.push_back(readFilter(filter));
     }
   }
   return pipeline;
 }
 
-void readOver(const YamlSection& section, RecipeScene& scene) {
-  if (const YamlNode* over = section.find("over")) {
-    const std::string name = section.text(*over, "over");
+void readOver(const YamlMap& section, RecipeScene& scene) {
+  if (const auto over = section.find("over")) {
+    const std::string name = over->text();
     for (const auto kind : {ReferenceScene::Kind::Natural, ReferenceScene::Kind::Skin, ReferenceScene::Kind::Smooth}) {
       if (name == nameOf(kind)) {
         scene.over = kind;
         return;
       }
     }
-    throw section.error(*over, section.named("over"), name, "must be natural, skin or smooth");
+    throw over->error("must be natural, skin or smooth");
   }
 }
 
-RecipeScene readScene(const YamlSection& section) {
+RecipeScene readScene(const YamlMap& section) {
   RecipeScene scene;
   std::string kind = nameOf(scene.kind);
   section.read("kind", kind);
   try {
     scene.kind = sceneKindFromName(kind);
   } catch (const InputError&) {
-    throw section.error(*section.find("kind"), "scene.kind", kind, sceneKindRemedy(kind));
+    throw section.find("kind")->error(sceneKindRemedy(kind));
   }
   section.read("set", scene.set);
   section.read("strength", scene.strength, 0.0, 1.0);
@@ -106,9 +104,8 @@ RecipeScene readScene(const YamlSection& section) {
   const bool hasSkin =
       scene.kind == ReferenceScene::Kind::Skin || (hasPairs && scene.over == ReferenceScene::Kind::Skin);
   const auto refuseUnless = [&](bool isMeant, const char* name, const char* kinds) {
-    if (const YamlNode* field = section.find(name); field != nullptr && !isMeant) {
-      throw section.error(*field, section.named(name), field->text,
-                          std::string("has a meaning with kind ") + kinds + " alone; leave it out");
+    if (const auto field = section.find(name); field && !isMeant) {
+      throw field->error(std::string("has a meaning with kind ") + kinds + " alone; leave it out");
     }
   };
   refuseUnless(hasPairs || scene.kind == ReferenceScene::Kind::Dataset, "set", "dataset or pairs");
@@ -187,13 +184,11 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
     throw InputError(where, "size", std::to_string(text.size()),
                      "is more than a recipe may have (" + std::to_string(kLargestRecipeBytes) + " bytes)");
   }
-  const YamlNode root = spectral::parseYaml(text, where);
-  const YamlSection top(root, where, "",
-                        {"metamer", "name", "space", "input", "output", "scene", "cat", "balanced", "keep_exposure"});
-  const YamlNode& version = top.require("metamer", "is missing; a recipe starts with 'metamer: 1'");
-  if (version.kind != YamlNode::Kind::Scalar || version.quoted || version.text != "1") {
-    throw top.error(version, "metamer", version.text,
-                    "is a version this release does not read; it reads 1, a number without quotes");
+  const YamlMap top(YamlValue::parse(text, where),
+                    {"metamer", "name", "space", "input", "output", "scene", "cat", "balanced", "keep_exposure"});
+  const YamlValue version = top.require("metamer", "is missing; a recipe starts with 'metamer: 1'");
+  if (!version.is("1")) {
+    throw version.error("is a version this release does not read; it reads 1, a number without quotes");
   }
   Recipe recipe;
   recipe.where = where;
@@ -201,32 +196,30 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
   top.read("space", recipe.space);
   top.read("keep_exposure", recipe.keepExposure);
 
-  const YamlSection input(top.require("input", "is missing; give the light, such as 'input: {illuminant: D65}'"), where,
-                          "input", {"illuminant", "filters", "observer"});
-  recipe.input = readPipeline(input);
-  const YamlSection output(top.require("output", "is missing; give the light, such as 'output: {illuminant: A}'"),
-                           where, "output", {"illuminant", "filters", "observer", "adaptation"});
+  recipe.input = readPipeline({top.require("input", "is missing; give the light, such as 'input: {illuminant: D65}'"),
+                               {"illuminant", "filters", "observer"}});
+  const YamlMap output(top.require("output", "is missing; give the light, such as 'output: {illuminant: A}'"),
+                       {"illuminant", "filters", "observer", "adaptation"});
   recipe.output = readPipeline(output);
   output.read("adaptation", recipe.adaptation, 0.0, 1.0);
 
-  if (const YamlNode* scene = top.find("scene")) {
-    recipe.scene =
-        readScene(YamlSection(*scene, where, "scene", {"kind", "set", "strength", "fade", "over", "radius"}));
+  if (const auto scene = top.find("scene")) {
+    recipe.scene = readScene({*scene, {"kind", "set", "strength", "fade", "over", "radius"}});
   }
-  if (const YamlNode* cat = top.find("cat")) {
-    const std::string name = top.text(*cat, "cat");
+  if (const auto cat = top.find("cat")) {
+    const std::string name = cat->text();
     try {
       recipe.cat = spectral::chromaticAdaptationFromName(name);
     } catch (const InputError&) {
-      throw top.error(*cat, "cat", name, "must be vonkries, bradford, cat02 or cat16");
+      throw cat->error("must be vonkries, bradford, cat02 or cat16");
     }
   }
-  if (const YamlNode* balanced = top.find("balanced")) {
-    const std::string name = top.text(*balanced, "balanced");
+  if (const auto balanced = top.find("balanced")) {
+    const std::string name = balanced->text();
     try {
       recipe.balanced = balanceFromName(name);
     } catch (const InputError&) {
-      throw top.error(*balanced, "balanced", name, kBalanceRemedy);
+      throw balanced->error(kBalanceRemedy);
     }
   }
   return recipe;

@@ -13,7 +13,7 @@
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
-#include "metamer/spectral/png_check.h"
+#include "metamer/spectral/picture_file.h"
 #include "metamer/spectral/spectral_picture.h"
 
 namespace metamer::spectral_ref {

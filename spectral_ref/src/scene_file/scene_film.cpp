@@ -14,8 +14,8 @@ constexpr int kLargestSide = 65536;
 constexpr double kMostPixels = 1 << 28;
 constexpr const char* kStandardObserver = "CIE 1931 2";
 
-SpectralBins readBins(const SceneValue& value) {
-  const SceneSection section(value, {"from", "to", "step"});
+SpectralBins readBins(const YamlValue& value) {
+  const YamlMap section(value, {"from", "to", "step"});
   const char* remedy = "is missing; give from, to and step in nm, such as {from: 380, to: 780, step: 10}";
   SpectralBins bins;
   bins.fromNm = section.require("from", remedy).number(spectral::kDomainStartNm, spectral::kDomainEndNm);
@@ -30,7 +30,7 @@ SpectralBins readBins(const SceneValue& value) {
   return bins;
 }
 
-void readSpace(const SceneSection& section, const spectral::DataLibrary& library, FilmSettings& film) {
+void readSpace(const YamlMap& section, const spectral::DataLibrary& library, FilmSettings& film) {
   const auto value = section.find("space");
   const bool isXyz = film.observer.response == Observer::Response::Xyz;
   const std::string name = value ? value->text() : isXyz ? "XYZ" : "native";
@@ -65,7 +65,7 @@ void readSpace(const SceneSection& section, const spectral::DataLibrary& library
   film.colourFromResponse = space.linear.rgbFromXyz() * film.colourFromResponse;
 }
 
-void readFilter(const SceneValue& value, FilmSettings& film) {
+void readFilter(const YamlValue& value, FilmSettings& film) {
   if (value.isScalar() && value.text() == "box") {
     return;
   }
@@ -77,7 +77,7 @@ void readFilter(const SceneValue& value, FilmSettings& film) {
   if (!value.isMap()) {
     throw value.error("must be box, gaussian, or {gaussian: SIGMA, radius: R} or {box: RADIUS} in pixels");
   }
-  const SceneSection section(value, {"box", "gaussian", "radius"});
+  const YamlMap section(value, {"box", "gaussian", "radius"});
   constexpr double kLargestRadius = 16.0;
   if (const auto box = section.find("box")) {
     film.filterRadius = box->number(0.0, kLargestRadius);
@@ -91,12 +91,12 @@ void readFilter(const SceneValue& value, FilmSettings& film) {
 
 }  // namespace
 
-FilmSettings readFilm(const std::optional<SceneValue>& value, const spectral::DataLibrary& library,
+FilmSettings readFilm(const std::optional<YamlValue>& value, const spectral::DataLibrary& library,
                       const std::filesystem::path& folder) {
   if (!value) {
     return FilmSettings(library.observer(kStandardObserver));
   }
-  const SceneSection section(*value, {"width", "height", "observer", "space", "bins", "filter", "photometric"});
+  const YamlMap section(*value, {"width", "height", "observer", "space", "bins", "filter", "photometric"});
   const auto observer = section.find("observer");
   FilmSettings film([&] {
     try {
@@ -131,20 +131,20 @@ FilmSettings readFilm(const std::optional<SceneValue>& value, const spectral::Da
   return film;
 }
 
-CameraSettings readCamera(const std::optional<SceneValue>& value) {
+CameraSettings readCamera(const std::optional<YamlValue>& value) {
   CameraSettings camera;
   if (!value) {
     return camera;
   }
-  const SceneSection section(*value, {"origin", "target", "up", "fov_x"});
+  const YamlMap section(*value, {"origin", "target", "up", "fov_x"});
   if (const auto origin = section.find("origin")) {
-    camera.origin = origin->vector();
+    camera.origin = vectorOf(*origin);
   }
   if (const auto target = section.find("target")) {
-    camera.target = target->vector();
+    camera.target = vectorOf(*target);
   }
   if (const auto up = section.find("up")) {
-    camera.up = up->vector();
+    camera.up = vectorOf(*up);
   }
   if (const auto angle = section.find("fov_x")) {
     camera.fovXDegrees = angle->number(1e-3, 179.0);
@@ -159,12 +159,12 @@ CameraSettings readCamera(const std::optional<SceneValue>& value) {
   return camera;
 }
 
-IntegratorSettings readIntegrator(const std::optional<SceneValue>& value) {
+IntegratorSettings readIntegrator(const std::optional<YamlValue>& value) {
   IntegratorSettings settings;
   if (!value) {
     return settings;
   }
-  const SceneSection section(*value, {"max_depth", "russian_roulette", "wavelengths"});
+  const YamlMap section(*value, {"max_depth", "russian_roulette", "wavelengths"});
   constexpr int kDeepest = 4096;
   if (const auto depth = section.find("max_depth")) {
     settings.maxDepth = depth->integer(1, kDeepest);

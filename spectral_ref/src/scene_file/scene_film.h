@@ -8,9 +8,9 @@
 namespace metamer::spectral_ref {
 
 /// The `film:`, `camera:` and `integrator:` sections of a scene file; what is left out keeps its default.
-FilmSettings readFilm(const std::optional<SceneValue>& value, const spectral::DataLibrary& library,
+FilmSettings readFilm(const std::optional<YamlValue>& value, const spectral::DataLibrary& library,
                       const std::filesystem::path& folder);
-CameraSettings readCamera(const std::optional<SceneValue>& value);
-IntegratorSettings readIntegrator(const std::optional<SceneValue>& value);
+CameraSettings readCamera(const std::optional<YamlValue>& value);
+IntegratorSettings readIntegrator(const std::optional<YamlValue>& value);
 
 }  // namespace metamer::spectral_ref

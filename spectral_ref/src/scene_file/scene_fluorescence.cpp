@@ -23,7 +23,7 @@ std::vector<double> excitationNm() {
 
 /// Samples of what a call gives; what it refuses is refused of this section.
 template <typename Give>
-spectral::FluorescentSamples samplesIn(const SceneSection& section, const Give& give) {
+spectral::FluorescentSamples samplesIn(const YamlMap& section, const Give& give) {
   try {
     return spectral::samplesOf(give());
   } catch (const spectral::InputError& error) {
@@ -31,7 +31,7 @@ spectral::FluorescentSamples samplesIn(const SceneSection& section, const Give& 
   }
 }
 
-spectral::FluorescentSamples samplesOfFile(const SceneSection& section, const SceneValue& file,
+spectral::FluorescentSamples samplesOfFile(const YamlMap& section, const YamlValue& file,
                                            const std::filesystem::path& folder) {
   for (const char* key : {"reflectance", "excitation", "emission", "quantum_yield"}) {
     if (const auto other = section.find(key)) {
@@ -42,7 +42,7 @@ spectral::FluorescentSamples samplesOfFile(const SceneSection& section, const Sc
   return samplesIn(section, [&] { return spectral::readFluorescence(path); });
 }
 
-spectral::FluorescentSamples samplesOfCurves(const SceneSection& section, SceneSpectra& spectra) {
+spectral::FluorescentSamples samplesOfCurves(const YamlMap& section, SceneSpectra& spectra) {
   const char* remedy = "is missing; give reflectance, excitation, emission and quantum_yield, or file";
   const auto curve = [&](const char* key, Use use, SpectralQuantity quantity) {
     const ExcitationSamples samples = spectra.at(spectra.find(section.require(key, remedy), use));
@@ -59,8 +59,8 @@ spectral::FluorescentSamples samplesOfCurves(const SceneSection& section, SceneS
 
 }  // namespace
 
-Material readFluorescent(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
-  const SceneSection section(value, {"file", "reflectance", "excitation", "emission", "quantum_yield"});
+Material readFluorescent(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
+  const YamlMap section(value, {"file", "reflectance", "excitation", "emission", "quantum_yield"});
   const auto file = section.find("file");
   spectral::FluorescentSamples samples =
       file ? samplesOfFile(section, *file, spectra.folder()) : samplesOfCurves(section, spectra);

@@ -7,6 +7,6 @@ namespace metamer::spectral_ref {
 
 /// `fluorescent: {file}`, a matrix or a compact form (spectral/fluorescence.h), or
 /// `fluorescent: {reflectance, excitation, emission, quantum_yield}`. Lambert's reflector where nothing is shifted.
-Material readFluorescent(const SceneValue& value, SceneSpectra& spectra, Scene& scene);
+Material readFluorescent(const YamlValue& value, SceneSpectra& spectra, Scene& scene);
 
 }  // namespace metamer::spectral_ref

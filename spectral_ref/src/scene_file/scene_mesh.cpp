@@ -53,7 +53,7 @@ constexpr std::uintmax_t kLargestMesh = std::uintmax_t{4} << 30U;
 
 }  // namespace
 
-Mesh readMesh(const SceneValue& file, const std::filesystem::path& folder) {
+Mesh readMesh(const YamlValue& file, const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / spectral::pathOf(file.text());
   const std::string extension = spectral::utf8(path.extension());
   if (extension != ".obj" && extension != ".ply") {

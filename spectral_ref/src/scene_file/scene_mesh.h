@@ -10,6 +10,6 @@ namespace metamer::spectral_ref {
 
 /// Triangles of an OBJ or PLY file, all its parts as one. Triangles without area or with a coordinate that is no finite
 /// number are left out and counted. @throws spectral::InputError: unreadable, no triangle left
-Mesh readMesh(const SceneValue& file, const std::filesystem::path& folder);
+Mesh readMesh(const YamlValue& file, const std::filesystem::path& folder);
 
 }  // namespace metamer::spectral_ref

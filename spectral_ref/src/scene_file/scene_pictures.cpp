@@ -12,7 +12,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/library_words.h"
 #include "metamer/spectral/path_text.h"
-#include "metamer/spectral/png_check.h"
+#include "metamer/spectral/picture_file.h"
 #include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/spectrum.h"
 
@@ -29,7 +29,7 @@ struct Pixels {
   std::vector<float> values;
 };
 
-Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) {
+Pixels readPixels(const YamlValue& value, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / spectral::pathOf(value.text());
   try {
     spectral::requirePictureFile(spectral::utf8(file));
@@ -66,7 +66,7 @@ Pixels readPixels(const SceneValue& value, const std::filesystem::path& folder) 
 }
 
 /// Drives from channels, one row an emitter.
-Eigen::MatrixXf readMatrix(const SceneSection& section, std::size_t emitters, const Pixels& pixels) {
+Eigen::MatrixXf readMatrix(const YamlMap& section, std::size_t emitters, const Pixels& pixels) {
   const auto value = section.find("matrix");
   if (!value) {
     if (static_cast<std::size_t>(pixels.channels) < emitters) {
@@ -98,10 +98,10 @@ Eigen::MatrixXf readMatrix(const SceneSection& section, std::size_t emitters, co
   return matrix;
 }
 
-std::vector<SpectrumId> readEmitters(const SceneSection& section, SceneSpectra& spectra) {
+std::vector<SpectrumId> readEmitters(const YamlMap& section, SceneSpectra& spectra) {
   std::vector<SpectrumId> ids;
   if (const auto emitters = section.find("emitters")) {
-    for (const SceneValue& emitter : emitters->items()) {
+    for (const YamlValue& emitter : emitters->items()) {
       ids.push_back(spectra.find(emitter, Use::Emission));
     }
     if (ids.empty()) {
@@ -216,7 +216,7 @@ spectral::DomainSamples smoothestEmission(const Eigen::Vector3d& xyz, const spec
   return (hats * bands).cwiseMax(0.0);
 }
 
-EmitterPicture readPicture(const SceneSection& section, SceneSpectra& spectra) {
+EmitterPicture readPicture(const YamlMap& section, SceneSpectra& spectra) {
   const auto file = section.require("picture", "is missing; name a picture file");
   const Pixels pixels = readPixels(file, spectra.folder());
   const auto scaleValue = section.find("scale");

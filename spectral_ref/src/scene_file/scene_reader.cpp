@@ -48,23 +48,23 @@ Scene readScene(const std::filesystem::path& file, const spectral::DataLibrary& 
 
 Scene parseScene(const std::string& text, const std::string& where, const std::filesystem::path& folder,
                  const spectral::DataLibrary& library) {
-  const SceneSection top(parseSceneText(text, where),
-                         {"metamer_scene", "film", "camera", "integrator", "spectra", "shapes", "lights"});
+  const YamlMap top(parseSceneText(text, where),
+                    {"metamer_scene", "film", "camera", "integrator", "spectra", "shapes", "lights"});
   const auto version = top.require("metamer_scene", "is missing; a scene starts with 'metamer_scene: 1'");
-  if (!version.isScalar() || version.text() != "1") {
-    throw version.error("is a version this release does not read; it reads 1");
+  if (!version.is("1")) {
+    throw version.error("is a version this release does not read; it reads 1, a number without quotes");
   }
   Scene scene(readFilm(top.find("film"), library, folder));
   scene.camera = readCamera(top.find("camera"));
   scene.integrator = readIntegrator(top.find("integrator"));
   SceneSpectra spectra(top.find("spectra"), scene, library, folder);
   if (const auto shapes = top.find("shapes")) {
-    for (const SceneValue& shape : shapes->items()) {
+    for (const YamlValue& shape : shapes->items()) {
       readShape(shape, spectra, scene);
     }
   }
   if (const auto lights = top.find("lights")) {
-    for (const SceneValue& light : lights->items()) {
+    for (const YamlValue& light : lights->items()) {
       readLight(light, spectra, scene);
     }
   }

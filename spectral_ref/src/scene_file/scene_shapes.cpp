@@ -15,12 +15,12 @@ using Use = SceneSpectra::Use;
 
 constexpr double kLargestLength = 1e9;
 
-Rectangle readPlace(const SceneSection& section) {
+Rectangle readPlace(const YamlMap& section) {
   const char* remedy = "is missing; a rectangle has 'center', half_u and half_v";
   Rectangle rectangle;
-  rectangle.center = section.require("center", remedy).vector();
-  rectangle.halfU = section.require("half_u", remedy).vector();
-  rectangle.halfV = section.require("half_v", remedy).vector();
+  rectangle.center = vectorOf(section.require("center", remedy));
+  rectangle.halfU = vectorOf(section.require("half_u", remedy));
+  rectangle.halfV = vectorOf(section.require("half_v", remedy));
   const double area = rectangle.halfU.cross(rectangle.halfV).norm();
   if (!(area > 1e-12 * rectangle.halfU.norm() * rectangle.halfV.norm()) || !(area > 0)) {
     throw section.error("", "has no area; half_u and half_v must be longer than 0 and not along one line");
@@ -28,24 +28,24 @@ Rectangle readPlace(const SceneSection& section) {
   return rectangle;
 }
 
-void readRectangle(const SceneValue& place, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
-  Rectangle rectangle = readPlace(SceneSection(place, {"center", "half_u", "half_v"}));
+void readRectangle(const YamlValue& place, const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
+  Rectangle rectangle = readPlace(YamlMap(place, {"center", "half_u", "half_v"}));
   rectangle.surface = readSurface(shape, spectra, scene);
   scene.rectangles.push_back(rectangle);
 }
 
-void readSphere(const SceneValue& place, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
-  const SceneSection section(place, {"center", "radius"});
+void readSphere(const YamlValue& place, const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
+  const YamlMap section(place, {"center", "radius"});
   Sphere sphere;
-  sphere.center = section.require("center", "is missing; a sphere has 'center' and radius").vector();
+  sphere.center = vectorOf(section.require("center", "is missing; a sphere has 'center' and radius"));
   sphere.radius =
       section.require("radius", "is missing; a sphere has 'center' and radius").number(1e-9, kLargestLength);
   sphere.surface = readSurface(shape, spectra, scene);
   scene.spheres.push_back(sphere);
 }
 
-void readChart(const SceneValue& place, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
-  const SceneSection section(place, {"center", "half_u", "half_v", "set", "columns", "gap"});
+void readChart(const YamlValue& place, const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
+  const YamlMap section(place, {"center", "half_u", "half_v", "set", "columns", "gap"});
   for (const char* key : kSurfaceKeys) {
     if (const auto value = shape.find(key)) {
       throw value->error("", "a chart has the materials of its set; leave this out");
@@ -53,7 +53,7 @@ void readChart(const SceneValue& place, const SceneSection& shape, SceneSpectra&
   }
   const Rectangle board = readPlace(section);
   const auto set = section.find("set");
-  const std::vector<SpectrumId> patches = spectra.set(set.value_or(SceneValue::ofText("colorchecker", "set")));
+  const std::vector<SpectrumId> patches = spectra.set(set.value_or(YamlValue::ofText("colorchecker", "set")));
   const auto columnsValue = section.find("columns");
   const int columns = columnsValue ? columnsValue->integer(1, 1024) : 6;
   const auto gapValue = section.find("gap");
@@ -72,8 +72,8 @@ void readChart(const SceneValue& place, const SceneSection& shape, SceneSpectra&
   }
 }
 
-void readLedWall(const SceneValue& place, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
-  const SceneSection section(place, {"center", "half_u", "half_v", "picture", "emitters", "matrix", "scale"});
+void readLedWall(const YamlValue& place, const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
+  const YamlMap section(place, {"center", "half_u", "half_v", "picture", "emitters", "matrix", "scale"});
   for (const char* key : kSurfaceKeys) {
     if (const auto value = shape.find(key)) {
       throw value->error("", "an LED wall has its picture's light; leave this out");
@@ -87,7 +87,7 @@ void readLedWall(const SceneValue& place, const SceneSection& shape, SceneSpectr
   scene.rectangles.push_back(wall);
 }
 
-void readMeshShape(const SceneValue& file, const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
+void readMeshShape(const YamlValue& file, const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
   Mesh mesh = readMesh(file, spectra.folder());
   mesh.surface = readSurface(shape, spectra, scene);
   if (mesh.dropped > 0) {
@@ -97,21 +97,21 @@ void readMeshShape(const SceneValue& file, const SceneSection& shape, SceneSpect
   scene.meshes.push_back(std::move(mesh));
 }
 
-void readPoint(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
-  const SceneSection section(value, {"position", "intensity"});
+void readPoint(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
+  const YamlMap section(value, {"position", "intensity"});
   PointLight light;
-  light.position = section.require("position", "is missing; a point light has position and intensity").vector();
+  light.position = vectorOf(section.require("position", "is missing; a point light has position and intensity"));
   light.intensity =
       spectra.find(section.require("intensity", "is missing; name a spectrum, in W.sr^-1.nm^-1"), Use::Emission);
   scene.points.push_back(light);
 }
 
-void readSpot(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
-  const SceneSection section(value, {"position", "target", "intensity", "cone", "beam"});
+void readSpot(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
+  const YamlMap section(value, {"position", "target", "intensity", "cone", "beam"});
   SpotLight light;
-  light.position = section.require("position", "is missing; a spot has position, target and intensity").vector();
+  light.position = vectorOf(section.require("position", "is missing; a spot has position, target and intensity"));
   const auto target = section.require("target", "is missing; a spot has position, target and intensity");
-  light.direction = target.vector() - light.position;
+  light.direction = vectorOf(target) - light.position;
   if (!(light.direction.norm() > 0)) {
     throw target.error("", "is the spot's own position; move it");
   }
@@ -128,11 +128,11 @@ void readSpot(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
   scene.spots.push_back(light);
 }
 
-void readEnvironment(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
+void readEnvironment(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
   if (!scene.environments.empty()) {
     throw value.error("", "is the second one; a scene has one environment");
   }
-  const SceneSection section(value, {"emission", "picture", "emitters", "matrix", "scale"});
+  const YamlMap section(value, {"emission", "picture", "emitters", "matrix", "scale"});
   if (section.find("picture")) {
     if (const auto emission = section.find("emission")) {
       throw emission->error("", "cannot stand beside a picture; leave one out");
@@ -153,9 +153,9 @@ void readEnvironment(const SceneValue& value, SceneSpectra& spectra, Scene& scen
 
 }  // namespace
 
-void readShape(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
-  const SceneSection shape(value, {"rectangle", "sphere", "chart", "mesh", "led_wall", "diffuse", "skin", "fluorescent",
-                                   "conductor", "dielectric", "gel", "emission"});
+void readShape(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
+  const YamlMap shape(value, {"rectangle", "sphere", "chart", "mesh", "led_wall", "diffuse", "skin", "fluorescent",
+                              "conductor", "dielectric", "gel", "emission"});
   int kinds = 0;
   for (const char* kind : {"rectangle", "sphere", "chart", "mesh", "led_wall"}) {
     kinds += shape.find(kind) ? 1 : 0;
@@ -176,8 +176,8 @@ void readShape(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
   }
 }
 
-void readLight(const SceneValue& value, SceneSpectra& spectra, Scene& scene) {
-  const SceneSection light(value, {"environment", "point", "spot"});
+void readLight(const YamlValue& value, SceneSpectra& spectra, Scene& scene) {
+  const YamlMap light(value, {"environment", "point", "spot"});
   if (light.keys().size() != 1) {
     throw light.error("", "must be one environment, point or spot");
   }

@@ -6,9 +6,9 @@
 namespace metamer::spectral_ref {
 
 /// One entry of `shapes:` into the scene.
-void readShape(const SceneValue& value, SceneSpectra& spectra, Scene& scene);
+void readShape(const YamlValue& value, SceneSpectra& spectra, Scene& scene);
 
 /// One entry of `lights:` into the scene.
-void readLight(const SceneValue& value, SceneSpectra& spectra, Scene& scene);
+void readLight(const YamlValue& value, SceneSpectra& spectra, Scene& scene);
 
 }  // namespace metamer::spectral_ref

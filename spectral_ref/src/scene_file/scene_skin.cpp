@@ -6,8 +6,8 @@
 
 namespace metamer::spectral_ref {
 
-Material readSkin(const SceneValue& value, SceneSpectra& spectra) {
-  const SceneSection section(value, {"melanin", "blood", "thickness", "melanin_type", "deoxygenation"});
+Material readSkin(const YamlValue& value, SceneSpectra& spectra) {
+  const YamlMap section(value, {"melanin", "blood", "thickness", "melanin_type", "deoxygenation"});
   const skin::SkinPrior prior = skin::SkinPrior::read(spectra.library());
   skin::SkinParameters parameters = skin::skinOf(prior.mean);
   const auto read = [&](const char* key, double& parameter, double low, double high) {

@@ -7,6 +7,6 @@ namespace metamer::spectral_ref {
 
 /// `skin: {melanin, blood, thickness, melanin_type, deoxygenation}`: Lambert's reflector with the skin model's albedo,
 /// its mean misfit to people repaired. What is left out is the mean skin's. The shine of a surface is not in it.
-Material readSkin(const SceneValue& value, SceneSpectra& spectra);
+Material readSkin(const YamlValue& value, SceneSpectra& spectra);
 
 }  // namespace metamer::spectral_ref

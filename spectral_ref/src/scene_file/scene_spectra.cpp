@@ -40,7 +40,7 @@ SpectralQuantity quantityOf(Use use) {
 
 /// Runs a look-up and says in its error where in the scene the name stands.
 template <typename Look>
-auto lookUp(const SceneValue& value, const Look& look) {
+auto lookUp(const YamlValue& value, const Look& look) {
   try {
     return look();
   } catch (const InputError& error) {
@@ -49,7 +49,7 @@ auto lookUp(const SceneValue& value, const Look& look) {
 }
 
 /// The reflectance that a published uplift gives a colour: linear Rec.709, white the perfect reflector under D65.
-ExcitationSamples uplifted(const SceneValue& rgb, const std::optional<SceneValue>& method,
+ExcitationSamples uplifted(const YamlValue& rgb, const std::optional<YamlValue>& method,
                            const spectral::DataLibrary& library) {
   /// What curves miss 0 and 1 by for black and white; all else is the method's own.
   constexpr double kRounding = 2e-3;
@@ -78,11 +78,11 @@ constexpr double kLargestScale = 1e12;
 
 }  // namespace
 
-SceneSpectra::SceneSpectra(const std::optional<SceneValue>& section, Scene& scene, const spectral::DataLibrary& library,
+SceneSpectra::SceneSpectra(const std::optional<YamlValue>& section, Scene& scene, const spectral::DataLibrary& library,
                            std::filesystem::path folder)
     : m_scene(scene), m_library(library), m_folder(std::move(folder)) {
   if (section) {
-    const SceneSection names(*section, {});
+    const YamlMap names(*section, {});
     for (const std::string& name : names.keys()) {
       m_definitions.emplace(name, *names.find(name));
     }
@@ -101,7 +101,7 @@ SpectrumId SceneSpectra::add(const spectral::DomainSamples& samples) {
   return add(all);
 }
 
-SpectrumId SceneSpectra::find(const SceneValue& value, Use use) {
+SpectrumId SceneSpectra::find(const YamlValue& value, Use use) {
   const std::string name = value.text();
   const auto known = m_resolved.find({name, use});
   if (known != m_resolved.end()) {
@@ -131,7 +131,7 @@ SpectrumId SceneSpectra::find(const SceneValue& value, Use use) {
   return id;
 }
 
-ExcitationSamples SceneSpectra::fromLibrary(const SceneValue& value, const std::string& name, Use use) const {
+ExcitationSamples SceneSpectra::fromLibrary(const YamlValue& value, const std::string& name, Use use) const {
   try {
     if (use == Use::Emission) {
       return onExcitation(m_library.illuminant(name, m_folder));
@@ -150,9 +150,9 @@ ExcitationSamples SceneSpectra::fromLibrary(const SceneValue& value, const std::
   throw value.error("no such name under 'spectra:'" + (near.empty() ? "" : "; did you mean '" + near.front() + "'?"));
 }
 
-ExcitationSamples SceneSpectra::read(const SceneValue& definition, Use use) const {
-  const SceneSection section(definition, {"illuminant", "filter", "density", "reflectance", "sample", "wavelengths",
-                                          "values", "constant", "file", "rgb", "uplift", "scale"});
+ExcitationSamples SceneSpectra::read(const YamlValue& definition, Use use) const {
+  const YamlMap section(definition, {"illuminant", "filter", "density", "reflectance", "sample", "wavelengths",
+                                     "values", "constant", "file", "rgb", "uplift", "scale"});
   const auto scaleValue = section.find("scale");
   const double scale = scaleValue ? scaleValue->number(0.0, kLargestScale) : 1.0;
   const auto refuse = [&](bool wrong, const char* what) {
@@ -230,7 +230,7 @@ ExcitationSamples SceneSpectra::read(const SceneValue& definition, Use use) cons
   return samples * scale;
 }
 
-std::vector<SpectrumId> SceneSpectra::set(const SceneValue& value) {
+std::vector<SpectrumId> SceneSpectra::set(const YamlValue& value) {
   const auto reflectances = lookUp(value, [&] { return m_library.reflectances(value.text(), m_folder); });
   std::vector<SpectrumId> ids;
   for (const Spectrum& sample : reflectances.samples) {

@@ -21,12 +21,12 @@ class SceneSpectra {
   /// it or what it emits, nothing outside its table.
   enum class Use { Emission, Reflectance, Transmittance, Refraction, Extinction, Dye };
 
-  SceneSpectra(const std::optional<SceneValue>& section, Scene& scene, const spectral::DataLibrary& library,
+  SceneSpectra(const std::optional<YamlValue>& section, Scene& scene, const spectral::DataLibrary& library,
                std::filesystem::path folder);
 
   /// A number (the same at all wavelengths), a name under `spectra:`, or a name that the data library knows for this
   /// use.
-  SpectrumId find(const SceneValue& value, Use use);
+  SpectrumId find(const YamlValue& value, Use use);
   /// Adds a spectrum without a name.
   SpectrumId add(const spectral::ExcitationSamples& samples);
   /// The same of one that is nothing below 380 nm.
@@ -34,19 +34,19 @@ class SceneSpectra {
   /// A spectrum that has been added, from 300 nm on.
   spectral::ExcitationSamples at(SpectrumId id) const { return m_scene.whole(id); }
   /// All samples of a reflectance set.
-  std::vector<SpectrumId> set(const SceneValue& value);
+  std::vector<SpectrumId> set(const YamlValue& value);
 
   const spectral::DataLibrary& library() const { return m_library; }
   const std::filesystem::path& folder() const { return m_folder; }
 
  private:
-  spectral::ExcitationSamples read(const SceneValue& definition, Use use) const;
-  spectral::ExcitationSamples fromLibrary(const SceneValue& value, const std::string& name, Use use) const;
+  spectral::ExcitationSamples read(const YamlValue& definition, Use use) const;
+  spectral::ExcitationSamples fromLibrary(const YamlValue& value, const std::string& name, Use use) const;
 
   Scene& m_scene;
   const spectral::DataLibrary& m_library;
   std::filesystem::path m_folder;
-  std::map<std::string, SceneValue> m_definitions;
+  std::map<std::string, YamlValue> m_definitions;
   std::map<std::pair<std::string, Use>, SpectrumId> m_resolved;
 };
 

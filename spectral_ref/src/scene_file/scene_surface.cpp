@@ -15,7 +15,7 @@ using Use = SceneSpectra::Use;
 constexpr double kLowestIndex = 1.0;
 constexpr double kHighestIndex = 4.0;
 
-std::vector<double> onCells(const SceneValue& value, double (*formula)(const std::vector<double>&, double),
+std::vector<double> onCells(const YamlValue& value, double (*formula)(const std::vector<double>&, double),
                             const std::vector<double>& coefficients) {
   std::vector<double> index;
   for (int i = 0; i < spectral::kDomainSize; ++i) {
@@ -49,7 +49,7 @@ double sellmeier(const std::vector<double>& c, double micrometres) {
   return n2 > 0 ? std::sqrt(n2) : 0.0;
 }
 
-RefractiveIndex readIndex(const SceneValue& value, SceneSpectra& spectra, const Scene& scene) {
+RefractiveIndex readIndex(const YamlValue& value, SceneSpectra& spectra, const Scene& scene) {
   RefractiveIndex index;
   if (value.isNumber()) {
     index.perNm.assign(spectral::kDomainSize, value.number(kLowestIndex, kHighestIndex));
@@ -57,7 +57,7 @@ RefractiveIndex readIndex(const SceneValue& value, SceneSpectra& spectra, const 
   }
   index.isConstant = false;
   if (value.isMap()) {
-    const SceneSection section(value, {"cauchy", "sellmeier"});
+    const YamlMap section(value, {"cauchy", "sellmeier"});
     if (const auto coefficients = section.find("cauchy")) {
       const auto numbers = coefficients->numbers();
       if (numbers.empty() || numbers.size() > 4) {
@@ -69,7 +69,7 @@ RefractiveIndex readIndex(const SceneValue& value, SceneSpectra& spectra, const 
     const auto coefficients =
         section.require("sellmeier", "is missing; give sellmeier: [[B1, C1], ...] (um^2) or cauchy: [A, B, ...]");
     std::vector<double> numbers;
-    for (const SceneValue& pair : coefficients.items()) {
+    for (const YamlValue& pair : coefficients.items()) {
       const auto both = pair.numbers();
       if (both.size() != 2) {
         throw pair.error("", "must be a pair [B, C], C in um^2");
@@ -88,7 +88,7 @@ RefractiveIndex readIndex(const SceneValue& value, SceneSpectra& spectra, const 
   return index;
 }
 
-double readRoughness(const SceneSection& section) {
+double readRoughness(const YamlMap& section) {
   const auto roughness = section.find("roughness");
   return roughness ? roughness->number(0.0, 1.0) : 0.0;
 }
@@ -96,8 +96,8 @@ double readRoughness(const SceneSection& section) {
 /// Below this GGX is a mirror to single precision.
 constexpr double kLeastRoughness = 1e-3;
 
-Material readConductor(const SceneValue& value, SceneSpectra& spectra) {
-  const SceneSection section(value, {"eta", "k", "reflectance", "roughness"});
+Material readConductor(const YamlValue& value, SceneSpectra& spectra) {
+  const YamlMap section(value, {"eta", "k", "reflectance", "roughness"});
   Material material;
   material.kind = Material::Kind::RoughConductor;
   material.roughness =
@@ -115,8 +115,8 @@ Material readConductor(const SceneValue& value, SceneSpectra& spectra) {
   return material;
 }
 
-Material readDielectric(const SceneValue& value, SceneSpectra& spectra, const Scene& scene) {
-  const SceneSection section(value, {"index", "roughness"});
+Material readDielectric(const YamlValue& value, SceneSpectra& spectra, const Scene& scene) {
+  const YamlMap section(value, {"index", "roughness"});
   Material material;
   material.index = readIndex(section.require("index", "is missing; such as index: 1.5"), spectra, scene);
   material.roughness = readRoughness(section);
@@ -138,10 +138,10 @@ std::uint32_t addDiffuse(Scene& scene, SpectrumId reflectance) {
   return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
 
-Surface readSurface(const SceneSection& shape, SceneSpectra& spectra, Scene& scene) {
+Surface readSurface(const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
   Surface surface;
   std::optional<Material> material;
-  const auto set = [&](const SceneValue& value, const Material& given) {
+  const auto set = [&](const YamlValue& value, const Material& given) {
     if (material) {
       throw value.error("", "the shape has another material already; keep one");
     }

@@ -10,7 +10,7 @@ inline constexpr const char* kSurfaceKeys[] = {"diffuse",    "skin", "fluorescen
                                                "dielectric", "gel",  "emission"};
 
 /// The material and emission of a shape.
-Surface readSurface(const SceneSection& shape, SceneSpectra& spectra, Scene& scene);
+Surface readSurface(const YamlMap& shape, SceneSpectra& spectra, Scene& scene);
 
 /// Adds a diffuse material.
 std::uint32_t addDiffuse(Scene& scene, SpectrumId reflectance);

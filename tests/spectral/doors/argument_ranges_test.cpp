@@ -13,8 +13,7 @@
 #include "metamer/spectral/pending_file.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
-#include "metamer/spectral/yaml_section.h"
-#include "metamer/spectral/yaml_tree.h"
+#include "metamer/spectral/yaml_value.h"
 #include "spectral/refusals.h"
 #include "spectral/temporary_folder.h"
 
@@ -125,12 +124,13 @@ TEST(SpectralRanges, Yaml) {
   form.mostNodes = 3;
   EXPECT_REFUSED("x.yaml", parseYaml("[1, 2, 3, 4]", "x.yaml", form));
   EXPECT_REFUSED("empty", parseYaml("", "x.yaml"));
-  const YamlNode node = parseYaml("a: 1.5", "x.yaml");
-  EXPECT_REFUSED("a", YamlSection(node, "x.yaml", "", {"b"}));
-  const YamlSection section(node, "x.yaml", "", {"a", "b"});
-  EXPECT_TAKEN(section.number(section.require("a", "is missing"), "a", 1.5, 1.5));
-  EXPECT_REFUSED("a", section.number(section.require("a", "is missing"), "a", 1.6, 2));
-  EXPECT_REFUSED("a", section.number(section.require("a", "is missing"), "a", 1, 1.4));
+  const YamlValue value = YamlValue::parse("a: 1.5", "x.yaml");
+  EXPECT_REFUSED("a", YamlMap(value, {"b"}));
+  const YamlMap section(value, {"a", "b"});
+  EXPECT_TAKEN(section.require("a", "is missing").number(1.5, 1.5));
+  EXPECT_REFUSED("a", section.require("a", "is missing").number(1.6, 2));
+  EXPECT_REFUSED("a", section.require("a", "is missing").number(1, 1.4));
+  EXPECT_REFUSED("a", section.require("a", "is missing").integer(1, 2));
   EXPECT_REFUSED("is missing", section.require("b", "is missing"));
 }
 

@@ -121,7 +121,7 @@ TEST(SceneReaderTest, EveryComplaintNamesItsPlaceAndRemedy) {
       {"film: {width: 0}", "scene.yaml:2:15: film.width '0': must be a whole number from 1 to 65536"},
       {"film: {width: 1.5}", "whole number"},
       {"film: {width: 12x}", "whole number"},
-      {"film: {hieght: 3}", "scene.yaml:2:8: film 'hieght': unknown; did you mean 'height'?"},
+      {"film: {hieght: 3}", "scene.yaml:2:8: key 'film.hieght': unknown; did you mean 'height'?"},
       {"film: {width: 2, width: 3}", "twice"},
       {"film: [", "scene.yaml:2:1: YAML"},
       {"film: {bins: {from: 380, to: 780}}", "film.bins.step: is missing"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "metamer/spectral/png_check.h"
+#include "metamer/spectral/picture_file.h"
 
 #include <algorithm>
 #include <array>
