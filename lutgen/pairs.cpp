@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "metamer/spectral/fluorescence.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
@@ -29,6 +30,8 @@ struct AddArguments {
   std::string file;
   std::vector<std::string> from;
   std::vector<std::string> colours;
+  std::optional<std::string> fluorescent;
+  std::vector<std::string> under;
   std::optional<std::string> name;
 };
 
@@ -95,13 +98,37 @@ std::vector<sip::Pair> pairsAlready(const std::string& file, const spectral::Dat
   return sip::readPairs(spectral::utf8(std::filesystem::absolute(spectral::pathOf(file))), library);
 }
 
-void add(const AddArguments& arguments) {
-  if (arguments.from.empty() == arguments.colours.empty()) {
-    throw CLI::ValidationError("pairs add", "needs either spectra (NAME or FILE[:COLUMN]) or --colour");
+/// The reflectance that looks like a fluorescent surface under each of some lights.
+sip::Pair fluorescentPair(const AddArguments& arguments, const spectral::DataLibrary& library) {
+  const std::filesystem::path file = spectral::pathOf(*arguments.fluorescent);
+  const spectral::FluorescentSamples surface = spectral::samplesOf(spectral::readFluorescence(file));
+  const auto curves = library.observer("CIE 1931 2").onDomain();
+  std::vector<sip::PairColour> colours;
+  for (const std::string& light : arguments.under) {
+    const spectral::ExcitationSamples arriving = spectral::onExcitation(library.illuminant(light));
+    colours.push_back({light, spectral::colourOf(surface, arriving, curves)});
+  }
+  const std::string name = arguments.name.value_or(spectral::utf8(file.stem()));
+  return sip::reflectanceOf(name, colours, library, *arguments.fluorescent, {}, sip::kFluorescentBrightest);
+}
+
+void checkUsage(const AddArguments& arguments) {
+  const int sources = (arguments.from.empty() ? 0 : 1) + (arguments.colours.empty() ? 0 : 1) +
+                      (arguments.fluorescent.has_value() ? 1 : 0);
+  if (sources != 1) {
+    throw CLI::ValidationError("pairs add",
+                               "needs spectra (NAME or FILE[:COLUMN]), --colour or --fluorescent, and one");
   }
   if (!arguments.colours.empty() && !arguments.name) {
     throw CLI::ValidationError("--colour", "needs --name");
   }
+  if (arguments.fluorescent.has_value() == arguments.under.empty()) {
+    throw CLI::ValidationError("--fluorescent", "and --under go together: name the lights of the shot and of the look");
+  }
+}
+
+void add(const AddArguments& arguments) {
+  checkUsage(arguments);
   if (spectral::lowerCase(spectral::utf8(spectral::pathOf(arguments.file).extension())) != ".csv") {
     throw InputError(arguments.file, "extension", "", "must be .csv");
   }
@@ -119,6 +146,9 @@ void add(const AddArguments& arguments) {
       colours.push_back(colourFrom(colour));
     }
     added.push_back(sip::reflectanceOf(*arguments.name, colours, library, "--colour"));
+  }
+  if (arguments.fluorescent) {
+    added.push_back(fluorescentPair(arguments, library));
   }
   if (arguments.name) {
     if (added.size() != 1) {
@@ -241,6 +271,11 @@ void addPairs(CLI::App& application) {
   adds->add_option("SPECTRA", added->from, "Measured reflectances: FILE, FILE:COLUMN, or a NAME of lutgen list");
   adds->add_option("--colour", added->colours,
                    "Instead: what the colour is under a light, LIGHT:X,Y,Z; repeat it for every light")
+      ->expected(1)
+      ->take_all();
+  adds->add_option("--fluorescent", added->fluorescent,
+                   "Instead: a fluorescent surface's file, a re-radiation matrix or the compact form");
+  adds->add_option("--under", added->under, "A light that it is seen under; repeat it for every light")
       ->expected(1)
       ->take_all();
   adds->add_option("--name", added->name, "Name of the pair, where it is one");

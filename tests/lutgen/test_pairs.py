@@ -37,6 +37,26 @@ class Pairs(LutgenTest):
         values = np.asarray(spectra[1].values)
         self.assertTrue(0 <= values.min() and values.max() <= 1)
 
+    def test_fluorescent_materials(self):
+        """A dye that gives back at 520 nm what it takes at 430: brighter than white in daylight, dull without violet."""
+        nm = np.arange(380, 781, 10)
+        factors = np.diag(np.where(nm > 500, 0.5, 0.1))
+        factors[nm == 520, (nm >= 400) & (nm <= 460)] = 0.6
+        rows = [",".join(map(str, (wavelength, *row))) for wavelength, row in zip(nm, factors)]
+        self.write("vest.csv", "\n".join([",".join(["out/in", *map(str, nm)]), *rows, ""]))
+        said = self.assertWorks("pairs", "add", "costume.csv", "--fluorescent", "vest.csv", "--under", "D65", "--under", "LPS")
+        self.assertIn("costume.csv: 1 pair added", said)
+        vest = metamer.Spectrum.read(self.folder / "costume.csv", quantity="reflectance")[0]
+        self.assertEqual(vest.name, "vest")
+        self.assertAlmostEqual(metamer.tristimulus(vest, "LPS")[1], 0.5, places=3)
+        self.assertGreater(metamer.tristimulus(vest, "D65")[1], 0.53)
+        self.assertLess(self.check("costume.csv", "--illuminant-out", "HP1")["pairs"][0]["error"], 1e-3)
+        usage = {("--fluorescent", "vest.csv"): "--fluorescent: and --under go together",
+                 ("colorchecker", "--under", "A"): "--fluorescent: and --under go together",
+                 ("colorchecker", "--fluorescent", "vest.csv", "--under", "A"): "and one"}
+        for arguments, says in usage.items():
+            self.assertFails("pairs", "add", "other.csv", *arguments, code=2, says=[says])
+
     def test_check_tells_what_a_transform_does(self):
         self.add_coat()
         self.assertWorks("pairs", "add", "costume.csv", "colorchecker")
@@ -90,8 +110,8 @@ class Pairs(LutgenTest):
         self.write("nan.csv", "nm,a\n380,0.1\n580,nan\n780,0.1\n")
         self.write("negative.csv", "nm,a\n380,0.1\n580,-0.9\n780,0.1\n")
         for arguments, code, says in [
-            (("add", "c.csv"), 2, ["needs either spectra"]),
-            (("add", "c.csv", "sand.csv", "--colour", "D65:1,1,1"), 2, ["needs either spectra"]),
+            (("add", "c.csv"), 2, ["needs spectra"]),
+            (("add", "c.csv", "sand.csv", "--colour", "D65:1,1,1"), 2, ["needs spectra"]),
             (("add", "c.csv", "--colour", "D65:.2,.2,.2"), 2, ["needs --name"]),
             (("add", "c.csv", "--name", "a", "--colour", "D65:.2,.2"), 1, ["--colour: colour 'D65:.2,.2': write LIGHT:X,Y,Z"]),
             (("add", "c.csv", "--name", "a", "--colour", "D66:.2,.2,.2"), 1, ["D66", "near names"]),

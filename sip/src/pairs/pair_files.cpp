@@ -161,8 +161,8 @@ void checkCount(std::size_t count, const std::string& where) {
 }  // namespace
 
 Pair reflectanceOf(const std::string& name, const std::vector<PairColour>& colours,
-                   const spectral::DataLibrary& library, const std::string& where,
-                   const std::filesystem::path& folder) {
+                   const spectral::DataLibrary& library, const std::string& where, const std::filesystem::path& folder,
+                   double brightest) {
   if (colours.empty()) {
     throw InputError(where, name, "", "has no colour; give its X, Y, Z under a light");
   }
@@ -178,7 +178,7 @@ Pair reflectanceOf(const std::string& name, const std::vector<PairColour>& colou
     weights.middleRows<3>(3 * k) = lightOf(colour.light, library, folder).weights;
     asked.segment<3>(3 * k) = colour.xyz;
   }
-  const SeveralLights solved = smoothestUnder(weights, asked);
+  const SeveralLights solved = smoothestUnder(weights, asked, brightest);
   if (!(solved.missed <= kMetColour)) {
     const Eigen::VectorXd nearest = weights * solved.reflectance;
     std::string text;

@@ -35,11 +35,11 @@ MatrixXd roughness(Index bands) {
 }
 
 /// Minimises `R' quadratic R / 2 - linear' R` subject to `rows * R = values` and the bounds.
-VectorXd interiorPoint(const MatrixXd& quadratic, const VectorXd& linear, const MatrixXd& rows,
-                       const VectorXd& values) {
+VectorXd interiorPoint(const MatrixXd& quadratic, const VectorXd& linear, const MatrixXd& rows, const VectorXd& values,
+                       double brightest) {
   const Index bands = quadratic.rows();
   const double low = -kRoom;
-  const double high = 1.0 + kRoom;
+  const double high = brightest + kRoom;
   VectorXd x = VectorXd::Constant(bands, 0.5);
   VectorXd prices = VectorXd::Zero(rows.rows());
   ArrayXd below = ArrayXd::Ones(bands);  // multipliers of the bounds
@@ -86,12 +86,12 @@ VectorXd interiorPoint(const MatrixXd& quadratic, const VectorXd& linear, const 
     below += dualLength * belowStep;
     above += dualLength * aboveStep;
   }
-  return x.cwiseMax(0.0).cwiseMin(1.0);
+  return x.cwiseMax(0.0).cwiseMin(brightest);
 }
 
 }  // namespace
 
-SeveralLights smoothestUnder(const MatrixXd& weights, const VectorXd& colours) {
+SeveralLights smoothestUnder(const MatrixXd& weights, const VectorXd& colours, double brightest) {
   const Index bands = weights.cols();
   const auto missed = [&](const VectorXd& reflectance) {
     return (weights * reflectance - colours).cwiseAbs().maxCoeff();
@@ -102,12 +102,13 @@ SeveralLights smoothestUnder(const MatrixXd& weights, const VectorXd& colours) {
   const MatrixXd rows = svd.matrixV().leftCols(rank).transpose();
   const VectorXd values =
       (svd.matrixU().leftCols(rank).transpose() * colours).cwiseQuotient(svd.singularValues().head(rank));
-  const VectorXd smoothest = interiorPoint(roughness(bands), VectorXd::Zero(bands), rows, values);
+  const VectorXd smoothest = interiorPoint(roughness(bands), VectorXd::Zero(bands), rows, values, brightest);
   if (const double off = missed(smoothest); off <= kMetColour) {
     return {smoothest, off};
   }
   const MatrixXd misses = weights.transpose() * weights + kRoughness * roughness(bands);
-  const VectorXd nearest = interiorPoint(misses, weights.transpose() * colours, MatrixXd(0, bands), VectorXd(0));
+  const VectorXd nearest =
+      interiorPoint(misses, weights.transpose() * colours, MatrixXd(0, bands), VectorXd(0), brightest);
   return {nearest, missed(nearest)};
 }
 

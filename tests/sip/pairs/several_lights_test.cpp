@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "metamer/sip/pairs.h"
 #include "metamer/sip/smoothest_spectrum.h"
 #include "metamer/spectral/colorimetry.h"
+#include "metamer/spectral/fluorescence.h"
+#include "metamer/spectral/reradiation.h"
 #include "sip/sip_fixture.h"
 #include "spectral/temporary_folder.h"
 
@@ -81,6 +84,49 @@ TEST(SeveralLightsTest, BlackWhiteAndWhatCannotBe) {
     const Eigen::VectorXd step = 1e-3 * (atBandCentres(surface, kBands) - solved.reflectance);
     EXPECT_GE((weights * (solved.reflectance + step) - colours).squaredNorm(), least - 1e-7);
   }
+}
+
+/// A dye that takes violet and gives it back as green: brighter than white in a band.
+TEST(SeveralLightsTest, FluorescentSurfacesLookAsTheyDoUnderEachLight) {
+  const auto curve = [](spectral::SpectralQuantity quantity, double middle, double width, double most) {
+    std::vector<double> nm;
+    std::vector<double> values;
+    for (int k = spectral::kExcitationStartNm; k <= 780; k += 5) {
+      nm.push_back(k);
+      values.push_back(most * std::exp(-0.5 * std::pow((k - middle) / width, 2)));
+    }
+    return spectral::Spectrum("dye", quantity, nm, values);
+  };
+  const spectral::FluorescentSamples surface = spectral::samplesOf(
+      spectral::CompactFluorescence{.name = "vest",
+                                    .reflectance = curve(spectral::SpectralQuantity::Reflectance, 610, 20, 0.9),
+                                    .excitation = curve(spectral::SpectralQuantity::Sensitivity, 440, 40, 0.95),
+                                    .emission = curve(spectral::SpectralQuantity::Sensitivity, 530, 8, 1),
+                                    .quantumYield = 0.9});
+  const auto curves = testLibrary().observer("CIE 1931 2").onDomain();
+  const auto coloursUnder = [&](const std::vector<std::string>& lights) {
+    std::vector<PairColour> colours;
+    for (const std::string& light : lights) {
+      colours.push_back(
+          {light, spectral::colourOf(surface, spectral::onExcitation(testLibrary().illuminant(light)), curves)});
+    }
+    return colours;
+  };
+  const auto colours = coloursUnder({"D65", "HP1"});
+  const Pair vest = reflectanceOf("vest", colours, testLibrary(), "here", {}, kFluorescentBrightest);
+  EXPECT_GT(vest.reflectance.maxCoeff(), 1.0);
+  for (const PairColour& colour : colours) {
+    const auto light = testLibrary().illuminant(colour.light).onDomain();
+    const Eigen::Vector3d made = curves.transpose() * light.cwiseProduct(vest.reflectance) / curves.col(1).dot(light);
+    EXPECT_LE((made - colour.xyz).cwiseAbs().maxCoeff(), 1e-6) << colour.light;
+  }
+  EXPECT_NE(errorOf([&] { reflectanceOf("vest", colours, testLibrary(), "here"); }).find("no one reflectance"),
+            std::string::npos);
+  // Daylight and tungsten are too alike: what glows in one and not in the other is no spectrum's.
+  EXPECT_NE(errorOf([&] {
+              reflectanceOf("vest", coloursUnder({"D65", "A"}), testLibrary(), "here", {}, kFluorescentBrightest);
+            }).find("no one reflectance"),
+            std::string::npos);
 }
 
 class PairFilesTest : public testing::Test {

@@ -42,14 +42,18 @@ std::vector<Pair> readPairs(const std::string& nameOrFile, const spectral::DataL
 /// @throws spectral::InputError where its heading begins like one and goes on otherwise
 bool isTableOfColours(const std::filesystem::path& file);
 
-/// The smoothest reflectance within 0 ... 1 that has some colours under as many lights, to 1e-9 in X, Y and Z; on 81
-/// bands, linear between them.
-/// @param where    for messages: a file, a command's option
-/// @param colours  at least one, of lights that `library` knows
+/// The smoothest reflectance within 0 ... brightest that has some colours under as many lights, to 1e-9 in X, Y and Z;
+/// on 81 bands, linear between them.
+/// @param where      for messages: a file, a command's option
+/// @param colours    at least one, of lights that `library` knows
+/// @param brightest  kFluorescentBrightest for what fluoresces
 /// @throws spectral::InputError where there is none, with the nearest that there is
 Pair reflectanceOf(const std::string& name, const std::vector<PairColour>& colours,
                    const spectral::DataLibrary& library, const std::string& where,
-                   const std::filesystem::path& folder = {});
+                   const std::filesystem::path& folder = {}, double brightest = 1.0);
+
+/// More than any day-glo paint gives back of what arrives in a band.
+inline constexpr double kFluorescentBrightest = 4.0;
 
 /// One pair of a transform's scene, as it comes out.
 struct CheckedPair {
