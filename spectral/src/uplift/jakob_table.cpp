@@ -21,6 +21,18 @@ double smoothStep(double x) {
   return x * x * (3 - 2 * x);
 }
 
+/// The last of an axis but its end that is not above a value, else the first. Without branches: of colours in no order
+/// half of them would be guessed wrong, and each wrong guess throws away the next colours' loads.
+std::size_t lastNotAbove(const std::vector<float>& axis, float value) {
+  const float* base = axis.data();
+  for (std::size_t left = axis.size() - 1; left > 1;) {
+    const std::size_t half = left / 2;
+    base += base[half] <= value ? half : 0;
+    left -= half;
+  }
+  return static_cast<std::size_t>(base - axis.data());
+}
+
 class JakobByTable : public Uplift {
  public:
   JakobByTable(const DataLibrary& library, const UpliftWeights& weights, const Eigen::Matrix3d& xyzFromRgb)
@@ -99,8 +111,7 @@ JakobCoefficients JakobTable::coefficients(const std::array<float, 3>& rgb) cons
   const float second = isBlack ? last : colour[(largest + 2) % 3] * (last / value);
   const std::size_t i = std::min(static_cast<std::size_t>(first), size - 2);
   const std::size_t j = std::min(static_cast<std::size_t>(second), size - 2);
-  const auto above = std::upper_bound(m_axis.begin() + 1, m_axis.end() - 1, value);
-  const auto k = static_cast<std::size_t>(above - m_axis.begin()) - 1;
+  const std::size_t k = lastNotAbove(m_axis, value);
   const float x = first - static_cast<float>(i);
   const float y = second - static_cast<float>(j);
   const float z = (value - m_axis[k]) / (m_axis[k + 1] - m_axis[k]);
