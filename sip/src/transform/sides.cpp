@@ -22,6 +22,11 @@ constexpr double kDarkCone = 1e-9;
 /// carry six digits.
 constexpr double kCollinear = 1e-5;
 
+std::string notReached(const std::string& part, const std::string& adaptation) {
+  return "does not reach this light (no response in one " + part + "); use " +
+         (adaptation == "vonkries" ? "another light" : "vonkries");
+}
+
 /// Three curves that two would do for, or one, see no colours: no matrix leads from their responses to XYZ.
 void refuseCollinear(const Pipeline& pipeline, const char* field) {
   Eigen::MatrixXd curves = pipeline.observer.onDomain();  // dynamic: too large for the stack
@@ -62,7 +67,7 @@ Sides prepareSides(const TransformSpec& spec) {
   const SideBalance outputBalance = balanceOf(spec, spec.output, output);
   if (inputBalance.hasDarkCones) {
     throw InputError(spec.input.illuminant.name(), "balanced", inputBalance.cones,
-                     "does not reach this light (no response in one channel); use vonkries");
+                     notReached("channel", inputBalance.cones));
   }
   if (spec.adaptation > 0.0 && outputBalance.hasDarkCones) {
     throw InputError(spec.output.illuminant.name(), "adaptation", std::to_string(spec.adaptation),
@@ -81,7 +86,7 @@ Sides prepareSides(const TransformSpec& spec) {
   const Eigen::Array3d outputCones = (cones * output.whiteXyz()).array();
   if (spec.adaptation < 1.0 && !(inputCones.minCoeff() > kDarkCone)) {
     throw InputError(spec.input.illuminant.name(), "cat", spectral::nameOf(spec.cat),
-                     "does not reach this light (no response in one cone); use vonkries");
+                     notReached("cone", spectral::nameOf(spec.cat)));
   }
   const auto onCones = [&](const Eigen::Array3d& gain) -> Eigen::Matrix3d {
     return cones.inverse() * gain.matrix().asDiagonal() * cones;

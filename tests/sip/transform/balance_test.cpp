@@ -217,6 +217,21 @@ TEST(BalanceTest, RefusesLightsOutOfReach) {
                                          "{illuminant: D65, adaptation: 0}"));
             }),
             "r.yaml: LPS: cat 'bradford': does not reach this light (no response in one cone); use vonkries");
+  // Deep red reaches a camera made for it, and no blue cone.
+  const auto over = [](const char* name, spectral::SpectralQuantity quantity, double from) {
+    return spectral::Spectrum(name, quantity, {from, from + 10, from + 20, from + 30}, {0, 1, 1, 0});
+  };
+  TransformSpec red = specWith("", "{illuminant: A}");
+  red.input.illuminant = over("deep red", spectral::SpectralQuantity::SpectralPowerDistribution, 690);
+  red.input.observer.response = spectral::Observer::Response::Camera;
+  red.input.observer.xyzFromResponse.reset();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    red.input.observer.curves[static_cast<std::size_t>(k)] =
+        over("red", spectral::SpectralQuantity::Sensitivity, 680 + 10 * static_cast<double>(k));
+  }
+  EXPECT_NE(errorOf([&] { SpectralTransform{red}; }).find("(no response in one channel); use another light"),
+            std::string::npos)
+      << errorOf([&] { SpectralTransform{red}; });
   TransformSpec spec = specWith(balancedBy("camera"), side("A", "camera"));
   spec.daylight.reset();
   EXPECT_EQ(errorOf([&] { SpectralTransform{spec}; }),
