@@ -96,8 +96,8 @@ class Numbers(Folder):
                     if engine == "exact":
                         self.assertLess(off.max(), 1e-6)
                     else:
-                        # Which patches of a map are cut into four hangs on the last digits of exp and cbrt, which libraries
-                        # round differently: one in thousands is cut here and not there. Both are within the tolerance.
+                        # Which patches of a map are cut into four hangs on the last digits of sums, which Eigen adds up in another
+                        # order where it has no SSE2: one in thousands is cut here and not there. Both are within the tolerance.
                         self.assertLess(np.mean(off > 1e-6), 1e-3)
                         self.assertLess(off.max(), 2e-3)
                     self.assertEqual(len(findings["lights"]), 2)
