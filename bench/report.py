@@ -43,6 +43,7 @@ SECTIONS = {
     "growth": ("How cost grows", "performance"),
     "apply": ("Frames through lutgen apply", "performance"),
     "ofx": ("The OFX plug-in beside OpenColorIO", "performance"),
+    "gpu": ("For graphics cards", "performance"),
     "renderer": ("The renderer's noise against time", "performance"),
     "wavelengths": ("The renderer's wavelengths", "performance"),
 }

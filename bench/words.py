@@ -71,6 +71,13 @@ def _ofx(figures):
             "few hundredths of a second to the first frame.")
 
 
+def _gpu(figures):
+    rows = {row["file"]: row for row in figures["files"]}
+    return ("What a machine without a graphics card can say of them: the plug-in's kernel on a driver for processors, and files through OpenColorIO's "
+            f"shader. Where a viewer keeps tables as halves, a .ctf is off by {rows['.ctf']['half_textures']['p99']:.2f} at p99 in place of "
+            f"{rows['.ctf']['error']['p99']:.2f}; a .clf by {rows['.clf']['half_textures']['p99']:.2f}, in place of {rows['.clf']['error']['p99']:.2f}.")
+
+
 def _apply(figures):
     return (f"Relighting a sequence takes about as long as copying it: {figures['apply_seconds']:.1f} s beside {figures['copy_seconds']:.1f} s for "
             f"{figures['frames']} HD frames.")
@@ -111,6 +118,7 @@ OPENINGS = {
     "growth": "What twice the work costs. An exponent of 1: twice the time; 0: none.",
     "apply": _apply,
     "ofx": _ofx,
+    "gpu": _gpu,
     "renderer": "How soon a render is free of noise, beside Mitsuba 3 on the same scenes. MSE: mean square error; ReSTIR: light samples shared between "
                 "neighbouring pixels and passes; guided: wavelengths chosen where the light is.",
     "wavelengths": "What choosing wavelengths by the light (guiding) and carrying several per path (lanes) gains.",

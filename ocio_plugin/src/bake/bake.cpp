@@ -11,6 +11,7 @@
 #include "bake/judged_recipe.h"
 #include "bake/ladder.h"
 #include "metamer/ocio/pixel_processor.h"
+#include "metamer/ocio/texture_processor.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
@@ -49,6 +50,14 @@ class Baking {
   void certify() {
     certify(PixelProcessor(m_operators.group));
     m_judged.tell(kCertifiedShare);
+  }
+
+  /// The same of a file on a graphics card.
+  void certifyOnCards(const std::filesystem::path& file) {
+    const auto candidate = [&](TextureDepth depth) {
+      return Candidate(textureProcessor(file, depth), m_operators.toPixels, m_operators.fromPixels);
+    };
+    m_judged.certifyOnCards(candidate(TextureDepth::Float), candidate(TextureDepth::Half));
   }
 
   const OCIO::GroupTransformRcPtr& group() const { return m_operators.group; }
@@ -149,6 +158,7 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   lut.file().write(text);
   certificate.sha256 = sha256(text);
   baking.certify(PixelProcessor::fromFile(lut.file().path()));
+  baking.certifyOnCards(lut.file().path());
   if (options.tolerance && certificate.error.p99 > 1.01 * *options.tolerance) {
     throw InputError(spectral::utf8(file), "tolerance", std::to_string(*options.tolerance),
                      "is lost in the digits of " + format.name + "; name a format that keeps more");

@@ -125,6 +125,15 @@ Json pixelsJson(const PixelProtocol::Report& pixels) {
            {{"photograph_p99", rounded(pixels.photographCodes)}, {"noisy_p99", rounded(pixels.noisyCodes)}}}};
 }
 
+Json cardsJson(const Certificate::OnCards& onCards) {
+  const auto figures = [](const sip::ErrorProtocol::Report& error) {
+    return Json{{"mean", rounded(error.mean)}, {"p99", rounded(error.p99)}, {"max", rounded(error.max)}};
+  };
+  return {{"through", "OpenColorIO's shader, its tables as textures"},
+          {"float_textures", figures(onCards.floats)},
+          {"half_textures", figures(onCards.halves)}};
+}
+
 /// Beyond these a certificate says so in a sentence: luminance, over white's; distance, of a pixel's own size.
 constexpr double kBright = 3.0;
 constexpr double kFar = 2.0;
@@ -235,6 +244,9 @@ std::string Certificate::json() const {
         {"folds", rounded(folds)}}},
       {"policy",
        {{"negatives", policy.negatives}, {"out_of_range", policy.outOfRange}, {"not_a_number", policy.notANumber}}}};
+  if (onCards) {
+    document["graphics_cards"] = cardsJson(*onCards);
+  }
   if (!surfaces.empty()) {
     Json sets = Json::array();
     for (const sip::HeldOutSet& set : surfaces) {

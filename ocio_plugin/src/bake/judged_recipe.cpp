@@ -88,6 +88,13 @@ void JudgedRecipe::certify(const std::function<void(std::span<float> rgba)>& can
   }
 }
 
+void JudgedRecipe::certifyOnCards(const std::function<void(std::span<float> rgba)>& floats,
+                                  const std::function<void(std::span<float> rgba)>& halves) {
+  Certificate::OnCards& onCards = m_certificate.onCards.emplace();
+  inParallel([&] { onCards.floats = m_protocol->search(floats); },
+             [&] { onCards.halves = m_protocol->search(halves); });
+}
+
 LutDescription descriptionOf(const Certificate& certificate) {
   return {certificate.recipe.name, "metamer-" + sha256(sip::toYaml(certificate.recipe)).substr(0, 16),
           certificate.lines()};

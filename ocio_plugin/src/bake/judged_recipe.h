@@ -26,6 +26,11 @@ class JudgedRecipe {
   /// @throws spectral::InputError where it gives what is not a number: no certificate says that
   void certify(const std::function<void(std::span<float> rgba)>& candidate);
 
+  /// Puts the error of a transform of the engine's pixels through a graphics card into the certificate, of textures of
+  /// floats and of halves.
+  void certifyOnCards(const std::function<void(std::span<float> rgba)>& floats,
+                      const std::function<void(std::span<float> rgba)>& halves);
+
   /// Tells whoever waits how much of the work is done.
   void tell(double share) const {
     if (m_options.progress) {

@@ -25,7 +25,7 @@ PixelProcessor::PixelProcessor(const OCIO::ConstTransformRcPtr& transform) {
   }
 }
 
-PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
+OCIO::ConstTransformRcPtr fileTransform(const std::filesystem::path& file) {
   refuseOddLut(file);
   std::error_code none;
   if (!std::filesystem::is_regular_file(file, none)) {
@@ -35,6 +35,11 @@ PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
   // OCIO looks relative paths up in its search path, and keeps what it has read by name.
   transform->setSrc(spectral::utf8(std::filesystem::absolute(file)).c_str());
   transform->setInterpolation(OCIO::INTERP_BEST);
+  return transform;
+}
+
+PixelProcessor PixelProcessor::fromFile(const std::filesystem::path& file) {
+  const OCIO::ConstTransformRcPtr transform = fileTransform(file);
   try {
     return PixelProcessor(transform);
   } catch (const spectral::InputError& error) {

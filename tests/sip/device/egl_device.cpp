@@ -24,6 +24,25 @@ constexpr Id kStorageBuffer = 0x90D2;
 constexpr Id kDynamicCopy = 0x88EA;
 constexpr Id kAllBarriers = 0xFFFFFFFF;
 constexpr Id kRenderer = 0x1F01;
+constexpr Id kTexture2D = 0x0DE1;
+constexpr Id kTexture3D = 0x806F;
+constexpr Id kTexture0 = 0x84C0;
+constexpr Id kMinFilter = 0x2801;
+constexpr Id kMagFilter = 0x2800;
+constexpr Id kWrapS = 0x2802;
+constexpr Id kWrapT = 0x2803;
+constexpr Id kWrapR = 0x8072;
+constexpr Id kUnpackAlignment = 0x0CF5;
+constexpr Id kRed = 0x1903;
+constexpr Id kRgb = 0x1907;
+constexpr Id kFloat = 0x1406;
+constexpr int kNearest = 0x2600;
+constexpr int kLinear = 0x2601;
+constexpr int kClampToEdge = 0x812F;
+constexpr int kRed16 = 0x822D;
+constexpr int kRed32 = 0x822E;
+constexpr int kRgb16 = 0x881B;
+constexpr int kRgb32 = 0x8815;
 
 Handle (*eglProcedure)(const char*) = nullptr;
 
@@ -60,6 +79,36 @@ Id programOf(const std::string& text) {
     throw std::runtime_error(std::string("OpenGL: ") + words.data());
   }
   return program;
+}
+
+/// Binds a texture to a unit and its sampler. @return its name
+Id bind(const EglDevice::Texture& texture, Id unit, Id program) {
+  const bool isCube = texture.size[2] != 0;
+  const Id target = isCube ? kTexture3D : kTexture2D;
+  const Id format = texture.hasOneChannel ? kRed : kRgb;
+  const int kept = texture.hasOneChannel ? (texture.isHalf ? kRed16 : kRed32) : (texture.isHalf ? kRgb16 : kRgb32);
+  Id name = 0;
+  gl<void(int, Id*)>("glGenTextures")(1, &name);
+  gl<void(Id)>("glActiveTexture")(kTexture0 + unit);
+  gl<void(Id, Id)>("glBindTexture")(target, name);
+  const auto set = [&](Id what, int value) { gl<void(Id, Id, int)>("glTexParameteri")(target, what, value); };
+  set(kMinFilter, texture.isNearest ? kNearest : kLinear);
+  set(kMagFilter, texture.isNearest ? kNearest : kLinear);
+  for (const Id wrap : {kWrapS, kWrapT, kWrapR}) {
+    set(wrap, kClampToEdge);
+  }
+  gl<void(Id, int)>("glPixelStorei")(kUnpackAlignment, 4);
+  const auto side = [&](std::size_t k) { return static_cast<int>(texture.size[k]); };
+  if (isCube) {
+    gl<void(Id, int, int, int, int, int, int, Id, Id, const void*)>("glTexImage3D")(
+        target, 0, kept, side(0), side(1), side(2), 0, format, kFloat, texture.values);
+  } else {
+    gl<void(Id, int, int, int, int, int, Id, Id, const void*)>("glTexImage2D")(target, 0, kept, side(0), side(1), 0,
+                                                                               format, kFloat, texture.values);
+  }
+  const int place = gl<int(Id, const char*)>("glGetUniformLocation")(program, texture.sampler.c_str());
+  gl<void(int, int)>("glUniform1i")(place, static_cast<int>(unit));
+  return name;
 }
 
 }  // namespace
@@ -105,8 +154,8 @@ std::optional<EglDevice> EglDevice::find(std::string& reason) {
   return EglDevice(reinterpret_cast<const char*>(gl<const unsigned char*(Id)>("glGetString")(kRenderer)));
 }
 
-std::vector<float> EglDevice::run(const std::string& text, const DeviceTables& tables,
-                                  std::span<const float> pixels) const {
+std::vector<float> EglDevice::run(const std::string& text, const DeviceTables& tables, std::span<const float> pixels,
+                                  std::span<const Texture> textures) const {
   const Id program = programOf(text);
   std::array<Id, 4> buffers{};
   gl<void(int, Id*)>("glGenBuffers")(4, buffers.data());
@@ -117,11 +166,15 @@ std::vector<float> EglDevice::run(const std::string& text, const DeviceTables& t
   };
   fill(0, pixels.size_bytes(), pixels.data());
   fill(1, pixels.size_bytes(), pixels.data());
-  fill(2, sizeof(tables.nodes[0]) * tables.nodes.size(), tables.nodes.data());
+  fill(2, sizeof(std::array<float, 4>) * tables.nodes.size(), tables.nodes.data());
   fill(3, sizeof(std::uint32_t) * tables.cells.size(), tables.cells.data());
   const auto pixelCount = static_cast<Id>(pixels.size() / 4);
   gl<void(Id)>("glUseProgram")(program);
   gl<void(int, Id)>("glUniform1ui")(0, pixelCount);
+  std::vector<Id> bound;
+  for (const Texture& texture : textures) {
+    bound.push_back(bind(texture, static_cast<Id>(bound.size()), program));
+  }
   gl<void(Id, Id, Id)>("glDispatchCompute")((pixelCount + 63) / 64, 1, 1);
   gl<void(Id)>("glMemoryBarrier")(kAllBarriers);
   std::vector<float> result(pixels.size());
@@ -129,6 +182,7 @@ std::vector<float> EglDevice::run(const std::string& text, const DeviceTables& t
   gl<void(Id, std::intptr_t, std::intptr_t, void*)>("glGetBufferSubData")(
       kStorageBuffer, 0, static_cast<std::intptr_t>(pixels.size_bytes()), result.data());
   gl<void(int, const Id*)>("glDeleteBuffers")(4, buffers.data());
+  gl<void(int, const Id*)>("glDeleteTextures")(static_cast<int>(bound.size()), bound.data());
   gl<void(Id)>("glDeleteProgram")(program);
   return result;
 }

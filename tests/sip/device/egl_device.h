@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,8 +20,19 @@ class EglDevice {
 
   const std::string& name() const { return m_name; }
 
+  /// A table of three numbers a texel that a shader's sampler reads.
+  struct Texture {
+    std::string sampler;
+    std::array<unsigned, 3> size{};  ///< depth 0: of two dimensions
+    const float* values = nullptr;
+    bool hasOneChannel = false;
+    bool isHalf = false;     ///< kept as such by the driver
+    bool isNearest = false;  ///< else between texels, linearly
+  };
+
   /// Runs a compute shader's text over RGBA pixels. @throws std::runtime_error with the driver's words
-  std::vector<float> run(const std::string& text, const DeviceTables& tables, std::span<const float> pixels) const;
+  std::vector<float> run(const std::string& text, const DeviceTables& tables, std::span<const float> pixels,
+                         std::span<const Texture> textures = {}) const;
 
  private:
   explicit EglDevice(std::string name) : m_name(std::move(name)) {}

@@ -51,6 +51,12 @@ struct Certificate {
   /// CIEDE2000 against 401 bands, through OCIO's CPU processor; of a shader file through its kernel's text and the
   /// tables read from the file, compiled for the processor.
   sip::ErrorProtocol::Report error;
+  /// Of a file that OCIO reads: the same through OCIO's shader for graphics cards, its tables as textures.
+  struct OnCards {
+    sip::ErrorProtocol::Report floats;
+    sip::ErrorProtocol::Report halves;
+  };
+  std::optional<OnCards> onCards;
   PixelProtocol::Report pixels;  ///< against the engine that made it; of no pixels where it was not measured
   double brightening = 0;        ///< the engine's luminance out over in at saturated lights, over white's, at most
   sip::SpectralTransform::Diagnostics diagnostics;

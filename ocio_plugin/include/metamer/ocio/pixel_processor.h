@@ -30,4 +30,8 @@ class PixelProcessor {
   bool m_isNoOp = false;
 };
 
+/// A LUT file as a transform that OCIO reads when a processor is made of it; 3-D tables are looked up by tetrahedra.
+/// @throws spectral::InputError: no such file, or one that OCIO must not be given
+OCIO::ConstTransformRcPtr fileTransform(const std::filesystem::path& file);
+
 }  // namespace metamer::ocio
