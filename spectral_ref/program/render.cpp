@@ -33,6 +33,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kDefaultSamples = 64;
 /// Between two looks at the clock, the error and the signal.
 constexpr double kSecondsAStep = 0.25;
+/// Of each replicate two.
+constexpr std::uint64_t kFewestToMeasure = 2 * kReplicates;
 
 struct RenderArguments {
   std::string scene;
@@ -199,6 +201,7 @@ class RenderJob {
     Clock::time_point saved = start;
     Clock::time_point measured = start;
     std::optional<double> error;
+    std::uint64_t expectedEnd = m_arguments.targetError > 0 ? std::max(begun, kFewestToMeasure) : m_range[1];
     const Eigen::Matrix3d toXyz = xyzFromColour(m_scene.film);
     Progress progress(progressFormNamed(m_arguments.progress));
     while (m_renderer->nextSample() < m_range[1]) {
@@ -209,12 +212,14 @@ class RenderJob {
           break;
         }
       }
-      m_renderer->render(m_range[1], step);
+      m_renderer->render(std::min(m_range[1], expectedEnd), step);
       const double elapsed = secondsSince(start);
       const auto done = static_cast<double>(m_renderer->nextSample() - begun);
-      // The error is measured ever more rarely: at most a tenth of the time goes into it.
-      if ((progress.isDue() || m_arguments.targetError > 0) && secondsSince(measured) > 10.0 * m_secondsToMeasure &&
-          m_renderer->film().samples() >= 2 * kReplicates) {
+      // The error is measured ever more rarely, at most a tenth of the time goes into it; but also where the last one
+      // lets expect that the render is done, so that it stops then.
+      const bool isMeasured = secondsSince(measured) > 10.0 * m_secondsToMeasure;
+      if ((progress.isDue() || m_arguments.targetError > 0) &&
+          (isMeasured || m_renderer->nextSample() >= expectedEnd) && m_renderer->film().samples() >= kFewestToMeasure) {
         const Clock::time_point before = Clock::now();
         error = pictureError(m_renderer->film(), toXyz);
         measured = Clock::now();
@@ -222,6 +227,7 @@ class RenderJob {
         if (m_arguments.targetError > 0 && *error <= m_arguments.targetError) {
           break;
         }
+        expectedEnd = samplesFor(*error);
       }
       showProgress(progress, elapsed, done, static_cast<double>(m_range[1] - begun), error);
       if (stopSignal != 0) {
@@ -233,6 +239,19 @@ class RenderJob {
       }
     }
     return true;
+  }
+
+  /// Samples at which the target error is to be expected: noise falls with their root. The step is no shorter than a
+  /// fiftieth, for the error is an estimate itself.
+  std::uint64_t samplesFor(double error) const {
+    if (!(m_arguments.targetError > 0)) {
+      return m_range[1];
+    }
+    const auto taken = static_cast<double>(m_renderer->nextSample());
+    const double ratio = std::isfinite(error) ? error / m_arguments.targetError : std::sqrt(2.0);
+    const double wanted = std::ceil(taken * ratio * ratio);
+    const double next = std::clamp(wanted, std::ceil(1.02 * taken), static_cast<double>(m_range[1]));
+    return static_cast<std::uint64_t>(next);
   }
 
   void showProgress(Progress& progress, double elapsed, double done, double wanted, std::optional<double> error) const {

@@ -104,7 +104,8 @@ class CommandLine(unittest.TestCase):
         bins = {f"S0.{nm},000000nm" for nm in range(400, 701, 50)}
         self.assertEqual(names, {"R", "G", "B", "Y", "variance.Y", "samples"} | bins)
         self.assertEqual(header["spectralLayoutVersion"], "1.0")
-        self.assertEqual(header["emissiveUnits"], "W.m^-2.sr^-1.nm^-1")
+        self.assertEqual(header["emissiveUnits"], "W.m^-2.sr^-1")  # the layout's word for radiance per nm
+        np.testing.assert_allclose(header["chromaticities"], [1, 0, 0, 1, 0, 0, 1 / 3, 1 / 3], rtol=1e-6)
         for channel in pixels.values():
             self.assertEqual(channel.dtype, np.float32)
             self.assertEqual(channel.shape, (32, 40))
@@ -112,6 +113,21 @@ class CommandLine(unittest.TestCase):
         np.testing.assert_array_equal(pixels["samples"], 16)
         np.testing.assert_allclose(pixels["G"], pixels["Y"], rtol=1e-6)
         self.assertGreater(pixels["variance.Y"].mean(), 0)
+
+    def test_chromaticities_are_the_space_s(self):
+        def written(space, *arguments):
+            (self.folder / "space.yaml").write_text(SCENE.replace("space: XYZ", "space: " + space))
+            self.works("render", "space.yaml", "-o", "space.exr", *arguments)
+            return OpenEXR.File(str(self.folder / "space.exr"), separate_channels=True).header().get("chromaticities")
+
+        acescg = [0.713, 0.293, 0.165, 0.83, 0.128, 0.044, 0.32168, 0.33767]
+        np.testing.assert_allclose(written("ACEScg", "--spp", "1"), acescg, rtol=1e-6)
+        self.assertIsNone(written("native", "--spp", "1"))
+        # Parts carry them, and their merge.
+        np.testing.assert_allclose(written("ACEScg", "--samples", "0:1"), acescg, rtol=1e-6)
+        self.works("merge", "space.exr", "-o", "merged.exr")
+        self.works("render", "space.yaml", "-o", "whole.exr", "--spp", "1")
+        self.assertEqual(self.read("merged.exr"), self.read("whole.exr"))
 
     def test_same_bytes_whatever_the_threads_and_parts(self):
         self.works("render", "scene.yaml", "-o", "whole.exr", "--spp", "24")
@@ -241,6 +257,23 @@ class CommandLine(unittest.TestCase):
         self.assertTrue((self.folder / "a.exr.checkpoint").exists())
         self.works("render", "scene.yaml", "-o", "b.exr", "--target-error", "2")
         self.assertTrue((self.folder / "b.exr").exists())
+
+    def test_target_error_stops_in_time_and_at_the_cap(self):
+        def samples(*arguments):
+            self.works("render", "scene.yaml", "-o", "a.exr", *arguments)
+            return int(OpenEXR.File(str(self.folder / "a.exr"), separate_channels=True).channels()["samples"].pixels.max())
+
+        # The error falls with the root of the samples: half of it takes about four times as many, no more.
+        coarse = samples("--target-error", "0.4")
+        fine = samples("--target-error", "0.2")
+        self.assertLess(coarse, fine)
+        self.assertLess(fine, 10 * coarse)
+        # A cap below that ends the render, one far above it does not.
+        self.assertEqual(samples("--target-error", "0.2", "--spp", str(coarse)), coarse)
+        self.assertLess(samples("--target-error", "0.2", "--spp", "100000000"), 10 * coarse)
+        self.assertTrue((self.folder / "a.exr.checkpoint").exists())
+        # ReSTIR deals samples out in blocks of 16: halves to compare come late.
+        self.assertGreater(samples("--target-error", "5", "--restir", "lanes"), 16)
 
     def test_measure(self):
         self.works("render", "scene.yaml", "-o", "a.exr", "--spp", "64")

@@ -41,7 +41,11 @@ OIIO::ImageSpec pictureSpec(const Film& film, const FilmNotes& notes, bool withR
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", "");  // else the clock's: the same render gives the same file
   spec.attribute("spectralLayoutVersion", "1.0");
-  spec.attribute("emissiveUnits", "W.m^-2.sr^-1.nm^-1");
+  // The layout's own word for spectral radiance, which its readers compare: the values are per nm.
+  spec.attribute("emissiveUnits", "W.m^-2.sr^-1");
+  if (format.chromaticities) {
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), format.chromaticities->data());
+  }
   const bool isPhotometric = format.colourScale != 1.0;
   spec.attribute("metamer:units", isPhotometric ? "Y in cd.m^-2" : "Y = 1 for a radiance of 1 W.m^-2.sr^-1.nm^-1");
   spec.attribute("metamer:space", format.space);
@@ -65,6 +69,9 @@ nlohmann::json stateJson(const Film& film, const FilmNotes& notes) {
                          {"refused", film.refused},
                          {"ranges", film.ranges()},
                          {"notes", notes}};
+  if (format.chromaticities) {
+    json["chromaticities"] = *format.chromaticities;
+  }
   for (int i = 0; i < 9; ++i) {
     json["colourFromResponse"].push_back(format.colourFromResponse(i / 3, i % 3));
   }
@@ -133,6 +140,9 @@ std::optional<std::pair<Film, FilmNotes>> filmFromJson(const nlohmann::json& jso
   format.colourScale = json.at("colourScale");
   format.space = json.at("space");
   format.observer = json.at("observer");
+  if (json.contains("chromaticities")) {
+    format.chromaticities = json.at("chromaticities").get<std::array<float, 8>>();
+  }
   format.replicates.blockLength = std::max<std::uint64_t>(1, json.at("blockLength").get<std::uint64_t>());
   for (int i = 0; i < 9; ++i) {
     format.colourFromResponse(i / 3, i % 3) = json.at("colourFromResponse").at(static_cast<std::size_t>(i));

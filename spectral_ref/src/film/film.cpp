@@ -51,6 +51,7 @@ FilmFormat FilmFormat::of(const FilmSettings& settings, const Replicates& replic
   format.bins = settings.bins;
   format.colourFromResponse = settings.colourFromResponse;
   format.space = settings.space;
+  format.chromaticities = settings.chromaticities;
   format.observer = settings.observer.name;
   format.replicates = replicates;
   if (settings.photometric) {

@@ -7,6 +7,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <bit>
+#include <cassert>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -55,6 +57,32 @@ RTCRay embreeRay(const Ray& ray) {
   result.id = 0;
   result.flags = 0;
   return result;
+}
+
+bool isAlone(RayMask active) {
+  return (active & (active - 1U)) == 0;
+}
+
+/// Rays side by side, as Embree has them; in place of those that do not count stands one that does.
+void pack(const RayGroup& rays, RayMask active, RTCRay8& packed, std::array<int, kRaysTogether>& valid) {
+  const auto first = static_cast<std::size_t>(std::countr_zero(active));
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    const bool isActive = ((active >> i) & 1U) != 0;
+    valid[i] = isActive ? -1 : 0;
+    const Ray& ray = rays[isActive ? i : first];
+    packed.org_x[i] = ray.origin.x();
+    packed.org_y[i] = ray.origin.y();
+    packed.org_z[i] = ray.origin.z();
+    packed.tnear[i] = ray.least;
+    packed.dir_x[i] = ray.direction.x();
+    packed.dir_y[i] = ray.direction.y();
+    packed.dir_z[i] = ray.direction.z();
+    packed.time[i] = 0.0F;
+    packed.tfar[i] = ray.most;
+    packed.mask[i] = 0xffffffffU;
+    packed.id[i] = 0;
+    packed.flags[i] = 0;
+  }
 }
 
 }  // namespace
@@ -141,6 +169,30 @@ EmbreeScene::EmbreeScene(const Scene& scene) : m_handles(std::make_unique<Handle
 
 EmbreeScene::~EmbreeScene() = default;
 
+void EmbreeScene::describe(const Ray& ray, unsigned geometry, unsigned primitive, const Vec3& meshNormal,
+                           Hit& hit) const {
+  hit.position = ray.origin + ray.direction * hit.distance;
+  hit.primitive = primitive;
+  if (geometry == kRectangles) {
+    const ShapeRecord& record = m_rectangles[primitive];
+    hit.normal = record.normal;
+    hit.material = record.material;
+    hit.emitter = record.emitter;
+  } else if (geometry == kSpheres) {
+    const ShapeRecord& record = m_spheres[primitive];
+    hit.normal = (hit.position - record.center).normalized();
+    // Back onto the sphere: the distance along a long ray carries more error than its radius does.
+    hit.position = record.center + hit.normal * record.radius;
+    hit.material = record.material;
+    hit.emitter = record.emitter;
+  } else {
+    const MeshRecord& record = m_meshes[geometry - kFirstMesh];
+    hit.normal = meshNormal.normalized();
+    hit.material = record.material;
+    hit.emitter = record.emitter;
+  }
+}
+
 bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
   RTCRayHit query;
   query.ray = embreeRay(ray);
@@ -157,29 +209,47 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
     return false;
   }
   hit.distance = query.ray.tfar;
-  hit.position = ray.origin + ray.direction * hit.distance;
-  hit.primitive = query.hit.primID;
   hit.u = query.hit.u;
   hit.v = query.hit.v;
-  if (query.hit.geomID == kRectangles) {
-    const ShapeRecord& record = m_rectangles[query.hit.primID];
-    hit.normal = record.normal;
-    hit.material = record.material;
-    hit.emitter = record.emitter;
-  } else if (query.hit.geomID == kSpheres) {
-    const ShapeRecord& record = m_spheres[query.hit.primID];
-    hit.normal = (hit.position - record.center).normalized();
-    // Back onto the sphere: the distance along a long ray carries more error than its radius does.
-    hit.position = record.center + hit.normal * record.radius;
-    hit.material = record.material;
-    hit.emitter = record.emitter;
-  } else {
-    const MeshRecord& record = m_meshes[query.hit.geomID - kFirstMesh];
-    hit.normal = Vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z).normalized();
-    hit.material = record.material;
-    hit.emitter = record.emitter;
-  }
+  describe(ray, query.hit.geomID, query.hit.primID, {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}, hit);
   return true;
+}
+
+RayMask EmbreeScene::intersect(const RayGroup& rays, RayMask active, HitGroup& hits) const {
+  assert(active != 0);
+  if (isAlone(active)) {
+    const auto alone = static_cast<std::size_t>(std::countr_zero(active));
+    return intersect(rays[alone], hits[alone]) ? active : 0;
+  }
+  RTCRayHit8 query;
+  alignas(32) std::array<int, kRaysTogether> valid;
+  pack(rays, active, query.ray, valid);
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+#ifdef METAMER_EMBREE_4
+  rtcIntersect8(valid.data(), m_handles->scene.get(), &query, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect8(valid.data(), m_handles->scene.get(), &context, &query);
+#endif
+  RayMask found = 0;
+  for (RayMask rest = active; rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+    if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
+      continue;
+    }
+    found |= RayMask{1} << i;
+    Hit& hit = hits[i];
+    hit.distance = query.ray.tfar[i];
+    hit.u = query.hit.u[i];
+    hit.v = query.hit.v[i];
+    describe(rays[i], query.hit.geomID[i], query.hit.primID[i],
+             {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]}, hit);
+  }
+  return found;
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {
@@ -192,6 +262,29 @@ bool EmbreeScene::occluded(const Ray& ray) const {
   rtcOccluded1(m_handles->scene.get(), &context, &query);
 #endif
   return query.tfar < 0.0F;
+}
+
+RayMask EmbreeScene::occluded(const RayGroup& rays, RayMask active) const {
+  assert(active != 0);
+  if (isAlone(active)) {
+    return occluded(rays[static_cast<std::size_t>(std::countr_zero(active))]) ? active : 0;
+  }
+  RTCRay8 query;
+  alignas(32) std::array<int, kRaysTogether> valid;
+  pack(rays, active, query, valid);
+#ifdef METAMER_EMBREE_4
+  rtcOccluded8(valid.data(), m_handles->scene.get(), &query, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded8(valid.data(), m_handles->scene.get(), &context, &query);
+#endif
+  RayMask found = 0;
+  for (RayMask rest = active; rest != 0; rest &= rest - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+    found |= query.tfar[i] < 0.0F ? RayMask{1} << i : 0U;
+  }
+  return found;
 }
 
 }  // namespace metamer::spectral_ref

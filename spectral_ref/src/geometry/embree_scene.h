@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -25,6 +27,13 @@ struct Hit {
   std::uint32_t primitive = 0;    ///< triangle within a mesh
 };
 
+/// Rays that are traced at once.
+inline constexpr std::size_t kRaysTogether = 8;
+using RayGroup = std::array<Ray, kRaysTogether>;
+using HitGroup = std::array<Hit, kRaysTogether>;
+/// Bit i stands for ray i of a group.
+using RayMask = std::uint32_t;
+
 /// The shapes in Embree's hierarchy. The only file that knows Embree is its source.
 class EmbreeScene {
  public:
@@ -37,6 +46,14 @@ class EmbreeScene {
   bool intersect(const Ray& ray, Hit& hit) const;
   /// Whether anything lies between.
   bool occluded(const Ray& ray) const;
+
+  /// The same of several rays at once, in less time. The last bits of a hit may depend on the rays beside it: a group
+  /// must be made up the same way however a render is cut into parts.
+  /// @param active  rays that count, at least one
+  /// @return  those that hit something
+  RayMask intersect(const RayGroup& rays, RayMask active, HitGroup& hits) const;
+  /// @return  those that something lies in the way of
+  RayMask occluded(const RayGroup& rays, RayMask active) const;
 
   /// Emitting shapes number rectangles first, then spheres, then meshes, each in the scene's order.
   std::uint32_t emitterOfRectangle(std::size_t index) const { return m_rectangles[index].emitter; }
@@ -56,6 +73,9 @@ class EmbreeScene {
     std::uint32_t emitter;
   };
   struct Handles;
+
+  /// Fills in all of a hit but its distance and place along the shape.
+  void describe(const Ray& ray, unsigned geometry, unsigned primitive, const Vec3& meshNormal, Hit& hit) const;
 
   std::unique_ptr<Handles> m_handles;
   std::vector<ShapeRecord> m_rectangles;

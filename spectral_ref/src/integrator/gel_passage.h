@@ -13,6 +13,14 @@ namespace metamer::spectral_ref {
 
 enum class Passage { Hit, Escaped, Absorbed };
 
+/// Of the gel that a ray has hit.
+template <int C>
+Lanes<C> transmittanceAt(const PreparedScene& prepared, const Ray& ray, const Hit& hit,
+                         const WavelengthSet<C>& wavelengths) {
+  return prepared.materials.gelTransmittance<C>(hit.material, std::abs(ray.direction.dot(hit.normal)), prepared.spectra,
+                                                wavelengths);
+}
+
 /// Follows a ray to the next surface that scatters.
 /// @param ray         starts at the last gel afterwards
 /// @param throughput  loses what gels keep
@@ -23,7 +31,7 @@ Passage throughGels(const PreparedScene& prepared, Ray& ray, Hit& hit, Lanes<C>&
     if (!prepared.materials.isGel(hit.material)) {
       return Passage::Hit;
     }
-    throughput *= prepared.spectra.at(prepared.materials.gelTransmittance(hit.material), wavelengths);
+    throughput *= transmittanceAt(prepared, ray, hit, wavelengths);
     if (!(throughput.maxCoeff() > 0.0F)) {
       return Passage::Absorbed;
     }
@@ -49,7 +57,7 @@ bool gelsTransmit(const PreparedScene& prepared, Ray ray, std::uint32_t emitter,
     if (!prepared.materials.isGel(hit.material)) {
       return false;
     }
-    light *= prepared.spectra.at(prepared.materials.gelTransmittance(hit.material), wavelengths);
+    light *= transmittanceAt(prepared, ray, hit, wavelengths);
     if (!(light.maxCoeff() > 0.0F)) {
       return false;
     }

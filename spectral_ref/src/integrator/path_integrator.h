@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "integrator/gel_passage.h"
 #include "integrator/path_random.h"
+#include "integrator/path_state.h"
 #include "integrator/prepared_scene.h"
 #include "integrator/reservoir.h"
 #include "wavelengths/lanes.h"
@@ -17,69 +19,52 @@ struct NoResampling {
   static constexpr bool kResamples = false;
 };
 
-/// Radiance along a camera ray at C wavelengths: path tracing with next-event estimation and BSDF sampling, combined by
+/// Radiance along camera rays at C wavelengths: path tracing with next-event estimation and BSDF sampling, combined by
 /// the balance heuristic over path techniques and heroes (4.10).
+///
+/// Several paths are followed at once, edge by edge, so that Embree has their rays side by side.
 ///
 /// `kDispersive` scenes have materials that send wavelengths different ways. In all others every density is the same
 /// for all heroes and the weights collapse to 1/C; that is decided once, by the choice of this template.
 template <int C, bool kDispersive>
 class PathIntegrator {
  public:
-  explicit PathIntegrator(const PreparedScene& prepared)
-      : m_prepared(prepared), m_settings(prepared.scene.integrator) {}
+  using Radiances = std::array<Lanes<C>, kRaysTogether>;
 
-  /// @param resampling  gives the direct light of the first surface, where that is diffuse
+  static_assert(kRaysTogether <= Sampler::kMostTogether);
+
+  explicit PathIntegrator(const PreparedScene& prepared)
+      : m_prepared(prepared), m_settings(prepared.scene.integrator), m_hasGels(prepared.materials.hasGels()) {}
+
+  /// @param resampling  of each path: gives the direct light of its first surface, where that is diffuse
   template <typename Resampling>
-  Lanes<C> radiance(Ray ray, const WavelengthSet<C>& wavelengths, PathRandom& random,
-                    const Resampling& resampling) const {
-    Path path;
-    WavelengthSet<C> lanes = wavelengths;  // that the path carries here: fluorescent surfaces shift them
-    for (int edge = 1;; ++edge) {
-      Hit hit;
-      const Passage passage = throughGels(m_prepared, ray, hit, path.throughput, lanes);
-      if (passage == Passage::Absorbed) {
-        break;
-      }
-      if (passage == Passage::Escaped) {
-        addEnvironment(ray, path, lanes, resampling);
-        break;
-      }
-      addEmission(ray, hit, path, lanes, resampling);
+  void radiance(PathStarts<C>& starts, const std::array<Resampling, kRaysTogether>& resampling,
+                Radiances& radiance) const {
+    Group group;
+    for (std::size_t i = 0; i < starts.count; ++i) {
+      group.rays[i] = starts.paths[i].ray;
+      group.paths[i].lanes = starts.paths[i].wavelengths;
+    }
+    RayMask alive = (RayMask{1} << starts.count) - 1U;
+    for (int edge = 1; alive != 0; ++edge) {
+      const RayMask found = nextSurfaces(group, alive);
+      forEach(alive & ~found & ~group.absorbed,
+              [&](std::size_t i) { addEnvironment(group.rays[i], group.paths[i], resampling[i]); });
+      forEach(found, [&](std::size_t i) { addEmission(group.rays[i], group.hits[i], group.paths[i], resampling[i]); });
       if (edge >= m_settings.maxDepth) {
         break;
       }
-      const Frame frame(hit.normal);
-      const Vec3 out = frame.toLocal(-ray.direction);
-      auto bsdf = m_prepared.materials.template bsdf<C, kDispersive>(hit.material, m_prepared.spectra, lanes);
-      if (bsdf.isBlack(out)) {
-        break;
-      }
-      random.vertex(static_cast<std::uint32_t>(edge - 1));
-      if (const FluorescenceTable* fluorescence = m_prepared.materials.fluorescence(hit.material)) {
-        bsdf.setDiffuseReflectance(fluorescence->template stayOrShift<C>(random.fluorescence(), path.throughput,
-                                                                         bsdf.diffuseReflectance(), lanes));
-      }
-      bool isResampled = false;
-      if constexpr (Resampling::kResamples) {
-        path.resampled = nullptr;
-        if (edge == 1 && m_prepared.materials.isDiffuse(hit.material)) {
-          isResampled = true;
-          if (!addResampledLight(hit, bsdf, random, path, lanes, wavelengths, resampling)) {
-            break;
-          }
-        }
-      }
-      if (!isResampled && !bsdf.isDelta() && !m_prepared.lights.empty()) {
-        addDirectLight(hit, frame, out, bsdf, random, path, lanes);
-      }
-      if (!scatter(hit, frame, out, bsdf, random, path, ray)) {
-        break;
-      }
-      if (edge + 1 >= m_settings.russianRoulette && !survives(random.roulette(), path)) {
-        break;
-      }
+      toVertex(edge - 1, found, starts);
+      alive = 0;
+      group.lit = 0;
+      forEach(found, [&](std::size_t i) {
+        alive |= surface(edge, i, group, starts.paths[i], resampling[i]) ? RayMask{1} << i : 0U;
+      });
+      addDirect(group);
     }
-    return path.radiance;
+    for (std::size_t i = 0; i < starts.count; ++i) {
+      radiance[i] = group.paths[i].radiance;
+    }
   }
 
   /// The diffuse surface that a camera ray sees, if it sees one.
@@ -96,27 +81,101 @@ class PathIntegrator {
   }
 
  private:
-  /// What a path has become on its way from the camera.
-  struct Path {
-    Lanes<C> radiance = Lanes<C>::Zero();
-    /// Product of BSDFs and cosines over the density of the path's directions with the hero that drew them.
-    Lanes<C> throughput = Lanes<C>::Ones();
-    /// The same density with each lane as hero, over that of the hero.
-    Density<C, kDispersive> heroes = ones();
-    float heroSum = static_cast<float>(C);          ///< over all heroes
-    float heroSumBefore = static_cast<float>(C);    ///< the same before the last direction was drawn
-    float lastPdf = 0;                              ///< of that direction, by the hero
-    const ReservoirDomain<C>* resampled = nullptr;  ///< where its next-event estimation was resampled
-    LitPoint last;
-    bool lastIsDelta = true;  ///< next-event estimation could not have found what it hits
+  using Path = spectral_ref::Path<C, kDispersive>;
+
+  struct Group {
+    std::array<Path, kRaysTogether> paths;
+    RayGroup rays;  ///< the paths' next edges
+    HitGroup hits;
+    RayGroup shadowRays;   ///< to where a path's direct light comes from
+    RayMask lit = 0;       ///< paths that have such light
+    RayMask absorbed = 0;  ///< paths that a gel has ended
   };
 
-  static Density<C, kDispersive> ones() {
-    if constexpr (kDispersive) {
-      return Lanes<C>::Ones();
-    } else {
-      return 1.0F;
+  template <typename Work>
+  static void forEach(RayMask mask, const Work& work) {
+    for (; mask != 0; mask &= mask - 1U) {
+      work(static_cast<std::size_t>(std::countr_zero(mask)));
     }
+  }
+
+  static void toVertex(int number, RayMask paths, PathStarts<C>& starts) {
+    std::array<PathRandom*, kRaysTogether> randoms{};
+    std::size_t count = 0;
+    forEach(paths, [&](std::size_t i) { randoms[count++] = &starts.paths[i].random; });
+    PathRandom::vertex(static_cast<std::uint32_t>(number), {randoms.data(), count});
+  }
+
+  /// Follows paths to the next surface that scatters. @return  those that come to one
+  RayMask nextSurfaces(Group& group, RayMask alive) const {
+    group.absorbed = 0;
+    if (!m_hasGels) {
+      return m_prepared.shapes.intersect(group.rays, alive, group.hits);
+    }
+    RayMask found = 0;
+    forEach(alive, [&](std::size_t i) {
+      Path& path = group.paths[i];
+      const Passage passage = throughGels(m_prepared, group.rays[i], group.hits[i], path.throughput, path.lanes);
+      found |= passage == Passage::Hit ? RayMask{1} << i : 0U;
+      group.absorbed |= passage == Passage::Absorbed ? RayMask{1} << i : 0U;
+    });
+    return found;
+  }
+
+  /// Adds the direct light that nothing lies in the way of.
+  void addDirect(Group& group) const {
+    if (group.lit == 0) {
+      return;
+    }
+    if (!m_hasGels) {
+      const RayMask hidden = m_prepared.shapes.occluded(group.shadowRays, group.lit);
+      forEach(group.lit & ~hidden, [&](std::size_t i) { group.paths[i].radiance += group.paths[i].direct; });
+      return;
+    }
+    forEach(group.lit, [&](std::size_t i) {
+      Path& path = group.paths[i];
+      if (gelsTransmit(m_prepared, group.shadowRays[i], path.emitter, path.direct, path.lanes)) {
+        path.radiance += path.direct;
+      }
+    });
+  }
+
+  /// What a surface does to a path: its direct light, still to be tested, and the next direction.
+  /// @return  false where the path ends
+  template <typename Resampling>
+  bool surface(int edge, std::size_t i, Group& group, const PathStart<C>& start, const Resampling& resampling) const {
+    const Hit& hit = group.hits[i];
+    Path& path = group.paths[i];
+    const Frame frame(hit.normal);
+    const Vec3 out = frame.toLocal(-group.rays[i].direction);
+    auto bsdf = m_prepared.materials.template bsdf<C, kDispersive>(hit.material, m_prepared.spectra, path.lanes);
+    if (bsdf.isBlack(out)) {
+      return false;
+    }
+    const PathRandom& random = start.random;
+    if (const FluorescenceTable* fluorescence = m_prepared.materials.fluorescence(hit.material)) {
+      bsdf.setDiffuseReflectance(fluorescence->template stayOrShift<C>(random.fluorescence(), path.throughput,
+                                                                       bsdf.diffuseReflectance(), path.lanes));
+    }
+    bool isResampled = false;
+    // The last direction could but find a light: far from all lights next-event estimation is left to do that alone.
+    bool isLast = false;
+    if constexpr (Resampling::kResamples) {
+      path.resampled = nullptr;
+      if (edge == 1 && m_prepared.materials.isDiffuse(hit.material)) {
+        isResampled = true;
+        if (!addResampledLight(i, group, bsdf, start, resampling)) {
+          return false;
+        }
+      }
+    }
+    if (!isResampled && !bsdf.isDelta() && !m_prepared.lights.empty()) {
+      isLast = edge + 1 == m_settings.maxDepth && m_prepared.materials.isDiffuse(hit.material) &&
+               !m_prepared.lightReach.isNear(hit.position);
+      addDirectLight(i, group, frame, out, bsdf, random, !isLast);
+    }
+    return !isLast && scatter(hit, frame, out, bsdf, random, path, group.rays[i]) &&
+           (edge + 1 < m_settings.russianRoulette || survives(random.roulette(), path));
   }
 
   /// Weight of light found by following the BSDF, where next-event estimation finds it with density p_light:
@@ -126,7 +185,7 @@ class PathIntegrator {
                       const Resampling& resampling) const {
     if constexpr (Resampling::kResamples) {
       if (path.resampled != nullptr) {
-        return resampling.sampler.bsdfWeight(*path.resampled, entry, density(), path.lastPdf);
+        return resampling.sampler->bsdfWeight(*path.resampled, entry, density(), path.lastPdf);
       }
     }
     const float others = path.lastIsDelta ? 0.0F
@@ -136,8 +195,7 @@ class PathIntegrator {
   }
 
   template <typename Resampling>
-  void addEmission(const Ray& ray, const Hit& hit, Path& path, const WavelengthSet<C>& wavelengths,
-                   const Resampling& resampling) const {
+  void addEmission(const Ray& ray, const Hit& hit, Path& path, const Resampling& resampling) const {
     if (hit.emitter == kNone || ray.direction.dot(hit.normal) >= 0.0F) {
       return;
     }
@@ -145,12 +203,11 @@ class PathIntegrator {
     const auto density = [&] { return lights.locatedPdf(hit, path.last.place, ray.direction); };
     const float weight = weightOfFound(path, lights.entryOf(hit), density, resampling);
     path.radiance +=
-        path.throughput * lights.radiance(hit.emitter, lights.elementOf(hit), m_prepared.spectra, wavelengths) * weight;
+        path.throughput * lights.radiance(hit.emitter, lights.elementOf(hit), m_prepared.spectra, path.lanes) * weight;
   }
 
   template <typename Resampling>
-  void addEnvironment(const Ray& ray, Path& path, const WavelengthSet<C>& wavelengths,
-                      const Resampling& resampling) const {
+  void addEnvironment(const Ray& ray, Path& path, const Resampling& resampling) const {
     const LightTable& lights = m_prepared.lights;
     if (!lights.hasEnvironment()) {
       return;
@@ -159,13 +216,16 @@ class PathIntegrator {
     const float weight = weightOfFound(path, lights.environmentEntry(ray.direction), density, resampling);
     path.radiance += path.throughput *
                      lights.radiance(lights.environmentEmitter(), lights.environmentElement(ray.direction),
-                                     m_prepared.spectra, wavelengths) *
+                                     m_prepared.spectra, path.lanes) *
                      weight;
   }
 
+  /// @param isShared  whether following the BSDF may find the light as well
   template <typename Bsdf>
-  void addDirectLight(const Hit& hit, const Frame& frame, const Vec3& out, const Bsdf& bsdf, const PathRandom& random,
-                      Path& path, const WavelengthSet<C>& wavelengths) const {
+  void addDirectLight(std::size_t i, Group& group, const Frame& frame, const Vec3& out, const Bsdf& bsdf,
+                      const PathRandom& random, bool isShared) const {
+    const Hit& hit = group.hits[i];
+    Path& path = group.paths[i];
     const LightTable& lights = m_prepared.lights;
     const LightChoice::Choice choice = m_prepared.lightChoice.choose(litPoint(hit, bsdf), random.light());
     if (!(choice.probability > 0.0F)) {
@@ -178,45 +238,48 @@ class PathIntegrator {
       return;
     }
     const BsdfValue<C, kDispersive> value = bsdf.evaluate(out, frame.toLocal(light.direction));
-    if (!(value.value.maxCoeff() > 0.0F)) {
-      return;
-    }
-    Lanes<C> arriving = lights.radiance(light.emitter, light.element, m_prepared.spectra, wavelengths) * light.scale;
-    if (!(arriving.maxCoeff() > 0.0F) ||
-        !gelsTransmit(m_prepared, shadowRay(hit, light), light.emitter, arriving, wavelengths)) {
-      return;
-    }
     // A point light is found by this technique alone.
-    const float bsdfSum = light.isDelta ? 0.0F : sumOverHeroes<C>(value.pdf * path.heroes);
-    path.radiance +=
-        path.throughput * value.value * arriving * static_cast<float>(C) / (light.pdf * path.heroSum + bsdfSum);
+    const float bsdfSum = light.isDelta || !isShared ? 0.0F : sumOverHeroes<C>(value.pdf * path.heroes);
+    path.direct = path.throughput * value.value *
+                  lights.radiance(light.emitter, light.element, m_prepared.spectra, path.lanes) *
+                  (light.scale * static_cast<float>(C)) / (light.pdf * path.heroSum + bsdfSum);
+    testLater(i, group, light);
   }
 
   /// The same with the point of a reservoir: f W (4.3.3), with the lanes weighed by (4.21) where the hero chose alone.
-  /// @param seen    the wavelengths that the film sees, whatever the path has been shifted to
   /// @return  false where nothing is left for the path to find
   template <typename Bsdf, typename Resampling>
-  bool addResampledLight(const Hit& hit, const Bsdf& bsdf, const PathRandom& random, Path& path,
-                         const WavelengthSet<C>& wavelengths, const WavelengthSet<C>& seen,
+  bool addResampledLight(std::size_t i, Group& group, const Bsdf& bsdf, const PathStart<C>& start,
                          const Resampling& resampling) const {
+    Path& path = group.paths[i];
     const Lanes<C> reflected = path.throughput * bsdf.diffuseReflectance();
-    const Reservoir<C>& reservoir = resampling.fill(hit, reflected, wavelengths, seen, random);
+    // The film sees the wavelengths that the path began with, whatever it has been shifted to.
+    const Reservoir<C>& reservoir =
+        resampling.fill(group.hits[i], reflected, path.lanes, start.wavelengths, start.random);
     path.resampled = &reservoir.domain;
     if (reservoir.contribution > 0.0F) {
-      const auto point = resampling.sampler.look(reservoir.point, reservoir.domain);
-      Lanes<C> arriving = reflected * m_prepared.lights.radiance(point.light.emitter, point.light.element,
-                                                                 m_prepared.spectra, wavelengths);
+      const auto point = resampling.sampler->look(reservoir.point, reservoir.domain);
+      const Lanes<C> arriving = reflected * m_prepared.lights.radiance(point.light.emitter, point.light.element,
+                                                                       m_prepared.spectra, path.lanes);
       float weight = point.geometry * reservoir.contribution;
       if (resampling.isHero) {
         const float sum = arriving.sum();
         weight *= sum > 0.0F ? static_cast<float>(C) * arriving[0] / sum : 0.0F;
       }
-      if (weight > 0.0F &&
-          gelsTransmit(m_prepared, shadowRay(hit, point.light), point.light.emitter, arriving, wavelengths)) {
-        path.radiance += arriving * weight;
-      }
+      path.direct = arriving * weight;
+      testLater(i, group, point.light);
     }
-    return m_settings.maxDepth > 2 || resampling.sampler.needsBsdf(reservoir.domain);
+    return m_settings.maxDepth > 2 || resampling.sampler->needsBsdf(reservoir.domain);
+  }
+
+  /// Notes the path's direct light for addDirect(), if there is any.
+  static void testLater(std::size_t i, Group& group, const LightSample& light) {
+    Path& path = group.paths[i];
+    if (path.direct.maxCoeff() > 0.0F) {
+      path.emitter = light.emitter;
+      group.shadowRays[i] = shadowRay(group.hits[i], light);
+      group.lit |= RayMask{1} << i;
+    }
   }
 
   template <typename Bsdf>
@@ -260,6 +323,7 @@ class PathIntegrator {
 
   const PreparedScene& m_prepared;
   const IntegratorSettings& m_settings;
+  const bool m_hasGels;
 };
 
 }  // namespace metamer::spectral_ref

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "geometry/geometry.h"
 #include "integrator/sampler.h"
@@ -13,19 +15,25 @@ namespace metamer::spectral_ref {
 /// Random numbers of a path by use. Set 0 serves the camera and the first vertex; vertex n > 0 has set n.
 class PathRandom {
  public:
-  /// @param first  seeds of the sampler's set 0
-  PathRandom(const Sampler& sampler, const Sampler::Seeds& first) : m_sampler(sampler), m_set(sampler.set(first)) {}
+  PathRandom() = default;
+  /// @param first  the sampler's set 0
+  PathRandom(const Sampler& sampler, const Sampler::Set& first) : m_sampler(sampler), m_set(first) {}
 
   Eigen::Vector2f pixel() const { return {m_set[0], m_set[1]}; }
   float wavelength() const { return m_set[2]; }
 
-  /// Goes on to a vertex: before any of the below.
-  void vertex(std::uint32_t number) {
-    m_vertex = number;
-    m_offset = 3;
+  /// Several paths go on to a vertex: before any of the below.
+  static void vertex(std::uint32_t number, std::span<PathRandom* const> paths) {
+    std::array<const Sampler*, Sampler::kMostTogether> samplers{};
+    std::array<Sampler::Set*, Sampler::kMostTogether> sets{};
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      paths[i]->m_vertex = number;
+      paths[i]->m_offset = number > 0 ? 0 : 3;
+      samplers[i] = &paths[i]->m_sampler;
+      sets[i] = &paths[i]->m_set;
+    }
     if (number > 0) {
-      m_set = m_sampler.set(number);
-      m_offset = 0;
+      Sampler::fill({samplers.data(), paths.size()}, number, {sets.data(), paths.size()});
     }
   }
   std::uint32_t light() const { return m_set.bits[m_offset + 2]; }
@@ -48,7 +56,7 @@ class PathRandom {
   static constexpr std::uint32_t kFluorescenceSets = 0x666c0000U;  ///< and from here on
 
   Sampler m_sampler;
-  Sampler::Set m_set;
+  Sampler::Set m_set{};
   std::size_t m_offset = 3;
   std::uint32_t m_vertex = 0;
 };

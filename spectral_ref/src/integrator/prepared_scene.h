@@ -6,6 +6,7 @@
 #include "geometry/camera.h"
 #include "geometry/embree_scene.h"
 #include "lights/light_choice.h"
+#include "lights/light_reach.h"
 #include "lights/light_table.h"
 #include "lights/light_tree.h"
 #include "materials/material_table.h"
@@ -23,6 +24,7 @@ struct PreparedScene {
         spectra(description),
         materials(description),
         lights(description, shapes),
+        lightReach(lights, description),
         isChosenByPlace(options.lightRule == LightRule::Place && LightChoice::isWorthwhile(lights)),
         tree(isChosenByPlace || (options.restir != Restir::Off && !lights.empty())
                  ? std::make_unique<LightTree>(lights.bounds(description))
@@ -35,6 +37,7 @@ struct PreparedScene {
   SpectrumTables spectra;
   MaterialTable materials;
   LightTable lights;
+  LightReach lightReach;
   bool isChosenByPlace;
   std::unique_ptr<const LightTree> tree;  ///< null where neither light choice nor resampling needs one
   LightChoice lightChoice;

@@ -1,38 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "integrator/sampler.h"
 
-#include <bit>
+#include <cassert>
 #include <cstddef>
+
+#include "geometry/vector_lanes.h"
 
 namespace metamer::spectral_ref {
 namespace {
 
 // Dimensions that are worked on at once: the functions below take one number or so many.
 #ifdef __GNUC__
-using Several = std::uint32_t __attribute__((vector_size(16)));
+using Several = std::uint32_t __attribute__((vector_size(Sampler::kSetSize * sizeof(std::uint32_t))));
+/// The same at any place in memory.
+using SeveralAnywhere = Several __attribute__((aligned(4), may_alias));
 #else
 using Several = std::uint32_t;
+using SeveralAnywhere = Several;
 #endif
+constexpr std::size_t kParts = Sampler::kSetSize * sizeof(std::uint32_t) / sizeof(Several);
+
+METAMER_ALWAYS_INLINE const SeveralAnywhere* severalOf(const std::uint32_t* numbers) {
+  return reinterpret_cast<const SeveralAnywhere*>(numbers);  // NOLINT
+}
+METAMER_ALWAYS_INLINE SeveralAnywhere* severalOf(std::uint32_t* numbers) {
+  return reinterpret_cast<SeveralAnywhere*>(numbers);  // NOLINT
+}
 
 template <typename Bits>
-constexpr Bits reversed(Bits x) {
+METAMER_ALWAYS_INLINE constexpr void reverse(Bits& x) {
   x = ((x >> 1U) & 0x55555555U) | ((x & 0x55555555U) << 1U);
   x = ((x >> 2U) & 0x33333333U) | ((x & 0x33333333U) << 2U);
   x = ((x >> 4U) & 0x0f0f0f0fU) | ((x & 0x0f0f0f0fU) << 4U);
   x = ((x >> 8U) & 0x00ff00ffU) | ((x & 0x00ff00ffU) << 8U);
-  return (x >> 16U) | (x << 16U);
+  x = (x >> 16U) | (x << 16U);
+}
+constexpr std::uint32_t reversed(std::uint32_t x) {
+  reverse(x);
+  return x;
 }
 
 /// Owen scrambling of a bit-reversed number: each bit is flipped by a hash of those below it (Laine and Karras 2011,
 /// with the constants of Vegdahl 2021).
 template <typename Bits>
-constexpr Bits scrambledReversed(Bits x, Bits seed) {
+METAMER_ALWAYS_INLINE constexpr void scrambleReversed(Bits& x, const Bits& seed) {
   x ^= x * 0x3d20adeaU;
   x += seed;
   x *= (seed >> 16U) | 1U;
   x ^= x * 0x05526c56U;
   x ^= x * 0x53a22864U;
-  return x;
+}
+/// Its reverse, scrambled.
+template <typename Bits>
+METAMER_ALWAYS_INLINE constexpr void scramble(Bits& x, const Bits& seed) {
+  scrambleReversed(x, seed);
+  reverse(x);
 }
 
 /// Primitive polynomial and first direction numbers of a Sobol dimension (Joe and Kuo 2008, new-joe-kuo-6).
@@ -101,15 +123,52 @@ constexpr Digits makeDigits() {
 }
 alignas(32) constexpr Digits kDigits = makeDigits();
 
+constexpr std::uint32_t kApart = 0x9e3779b9U;  // between the seeds' counters
+
 std::uint32_t dimensionSeed(std::uint32_t seed, std::size_t dimension) {
-  return hash32(seed + static_cast<std::uint32_t>(dimension) * 0x9e3779b9U);
+  return hash32(seed + static_cast<std::uint32_t>(dimension) * kApart);
 }
+
+constexpr std::array<std::uint32_t, Sampler::kSetSize> kCounters = {0,           kApart,      2U * kApart, 3U * kApart,
+                                                                    4U * kApart, 5U * kApart, 6U * kApart, 7U * kApart};
 
 /// The sets are padded: an Owen-shuffled index breaks the correlation between them and keeps the stratification.
 /// Only within blocks of 2^16 points: a permutation still, and an index of few bits stays one.
-std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
+METAMER_ALWAYS_INLINE std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
   constexpr std::uint32_t kBlock = 0xffffU;
-  return (reversed(scrambledReversed(reversed(index), seed)) & kBlock) | (index & ~kBlock);
+  std::uint32_t bits = reversed(index);
+  scramble(bits, seed);
+  return (bits & kBlock) | (index & ~kBlock);
+}
+
+/// dimensionSeed of all dimensions, for several sets. Whole numbers: they are the same in lanes of any width.
+METAMER_VECTOR_LANES void makeSeeds(Sampler::Seeds* const* sets, std::size_t count) {
+  for (std::size_t n = 0; n < count; ++n) {
+    for (std::size_t i = 0; i < kParts; ++i) {
+      Several bits = severalOf(kCounters.data())[i] + sets[n]->index;
+      mix32(bits);
+      severalOf(sets[n]->dimensions.data())[i] = bits;
+    }
+  }
+}
+
+/// All dimensions of several points: while one waits for a product, the next is begun.
+METAMER_VECTOR_LANES void makePoints(const Sampler::Order* orders, std::size_t count) {
+  for (std::size_t n = 0; n < count; ++n) {
+    const Sampler::Seeds& seeds = *orders[n].seeds;
+    std::array<Several, kParts> bits{};
+    std::uint32_t index = shuffled(orders[n].index, seeds.index);
+    for (std::size_t digit = 0; index != 0; ++digit, index >>= kDigitBits) {
+      for (std::size_t i = 0; i < kParts; ++i) {
+        bits[i] ^= severalOf(kDigits[digit][index % kDigitValues].data())[i];
+      }
+    }
+    for (std::size_t i = 0; i < kParts; ++i) {
+      const Several seed = severalOf(seeds.dimensions.data())[i];
+      scramble(bits[i], seed);
+      severalOf(orders[n].set->bits.data())[i] = bits[i];
+    }
+  }
 }
 
 }  // namespace
@@ -139,31 +198,39 @@ std::array<std::uint32_t, 3> Sampler::Candidates::point(std::uint32_t candidate)
     }
   }
   for (std::size_t d = 0; d < bits.size(); ++d) {
-    bits[d] = reversed(scrambledReversed(bits[d], m_seeds[d]));
+    scramble(bits[d], m_seeds[d]);
   }
   return bits;
 }
 
-Sampler::Seeds::Seeds(std::uint32_t sequence, std::uint32_t number) : index(hash32(sequence, number)), dimensions{} {
-  for (std::size_t d = 0; d < kSetSize; ++d) {
-    dimensions[d] = dimensionSeed(index, d);
-  }
+Sampler::Seeds::Seeds(std::uint32_t sequence, std::uint32_t number) : index(hash32(sequence, number)) {
+  Seeds* own = this;
+  makeSeeds(&own, 1);
 }
 
 Sampler::Set Sampler::set(const Seeds& seeds) const {
-  std::array<Several, kSetSize * sizeof(std::uint32_t) / sizeof(Several)> bits{};
-  std::uint32_t index = shuffled(m_index, seeds.index);
-  for (std::size_t digit = 0; index != 0; ++digit, index >>= kDigitBits) {
-    const auto point = std::bit_cast<decltype(bits)>(kDigits[digit][index % kDigitValues]);
-    for (std::size_t i = 0; i < bits.size(); ++i) {
-      bits[i] ^= point[i];
-    }
+  Set result;
+  const Order order{m_index, &seeds, &result};
+  makePoints(&order, 1);
+  return result;
+}
+
+void Sampler::fill(std::span<const Order> orders) {
+  makePoints(orders.data(), orders.size());
+}
+
+void Sampler::fill(std::span<const Sampler* const> samplers, std::uint32_t number, std::span<Set* const> sets) {
+  assert(samplers.size() <= kMostTogether && sets.size() == samplers.size());
+  std::array<Seeds, kMostTogether> seeds;
+  std::array<Seeds*, kMostTogether> unmade{};
+  std::array<Order, kMostTogether> orders{};
+  for (std::size_t i = 0; i < samplers.size(); ++i) {
+    seeds[i].index = hash32(samplers[i]->m_sequence, number);
+    unmade[i] = &seeds[i];
+    orders[i] = {samplers[i]->m_index, &seeds[i], sets[i]};
   }
-  const auto dimensions = std::bit_cast<decltype(bits)>(seeds.dimensions);
-  for (std::size_t i = 0; i < bits.size(); ++i) {
-    bits[i] = reversed(scrambledReversed(bits[i], dimensions[i]));
-  }
-  return std::bit_cast<Set>(bits);
+  makeSeeds(unmade.data(), samplers.size());
+  makePoints(orders.data(), samplers.size());
 }
 
 }  // namespace metamer::spectral_ref

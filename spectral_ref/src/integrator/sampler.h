@@ -4,16 +4,24 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+
+#include "geometry/vector_lanes.h"
 
 namespace metamer::spectral_ref {
 
-/// Well mixed 32 bits of a counter or a pair of them (a finaliser of the murmur family, by Wellons).
-inline std::uint32_t hash32(std::uint32_t x) {
+/// Mixes the bits of a number, or of several in vector lanes (a finaliser of the murmur family, by Wellons).
+template <typename Bits>
+METAMER_ALWAYS_INLINE void mix32(Bits& x) {
   x ^= x >> 16U;
   x *= 0x21f0aaadU;
   x ^= x >> 15U;
   x *= 0xd35a2d97U;
   x ^= x >> 15U;
+}
+/// Well mixed 32 bits of a counter or a pair of them.
+inline std::uint32_t hash32(std::uint32_t x) {
+  mix32(x);
   return x;
 }
 inline std::uint32_t hash32(std::uint32_t a, std::uint32_t b) {
@@ -35,6 +43,7 @@ class Sampler {
     float operator[](std::size_t dimension) const { return unitFloat(bits[dimension]); }
   };
 
+  Sampler() = default;
   /// @param sequence  names the pixel and the replicate: points of one sequence are stratified against each other
   /// @param index     of the sample within the sequence
   Sampler(std::uint32_t sequence, std::uint32_t index) : m_sequence(sequence), m_index(index) {}
@@ -42,9 +51,20 @@ class Sampler {
   /// What all points of a set have in common, whatever their index.
   struct Seeds {
     std::uint32_t index;  ///< of the shuffle
-    std::array<std::uint32_t, kSetSize> dimensions;
+    std::array<std::uint32_t, kSetSize> dimensions{};
+    Seeds() : index(0) {}
     Seeds(std::uint32_t sequence, std::uint32_t number);
   };
+  /// A set to be worked out together with others, which takes less time.
+  struct Order {
+    std::uint32_t index;
+    const Seeds* seeds;
+    Set* set;
+  };
+  static void fill(std::span<const Order> orders);
+  /// The same set of several samplers. @param sets  of each; at most kMostTogether
+  static void fill(std::span<const Sampler* const> samplers, std::uint32_t number, std::span<Set* const> sets);
+  static constexpr std::size_t kMostTogether = 8;
 
   Set set(std::uint32_t number) const { return set(Seeds(m_sequence, number)); }
   /// The same with seeds that have been worked out once for all points.
@@ -71,8 +91,8 @@ class Sampler {
   }
 
  private:
-  std::uint32_t m_sequence;
-  std::uint32_t m_index;
+  std::uint32_t m_sequence = 0;
+  std::uint32_t m_index = 0;
 };
 
 }  // namespace metamer::spectral_ref

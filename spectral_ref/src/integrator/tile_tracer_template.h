@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <type_traits>
 #include <vector>
 
+#include "integrator/edge_map.h"
 #include "integrator/path_integrator.h"
 #include "integrator/path_random.h"
 #include "integrator/reservoir.h"
@@ -15,12 +19,18 @@
 
 namespace metamer::spectral_ref {
 
-/// What a path starts with.
-template <int C>
-struct PathStart {
-  PathRandom random;
-  WavelengthSet<C> wavelengths;
-  Ray ray;
+/// Paths that are followed side by side, of neighbouring pixels: part `part` of the `parts` that a sample is the mean
+/// of.
+struct PixelGroup {
+  struct Place {
+    int x = 0;
+    int y = 0;
+    std::size_t pixel = 0;
+    std::uint32_t part = 0;
+    std::uint32_t parts = 1;
+  };
+  std::size_t count = 0;
+  std::array<Place, kRaysTogether> places;
 };
 
 /// Plain path tracing.
@@ -30,58 +40,87 @@ class LaneTracer : public TileTracer {
   explicit LaneTracer(const TracerContext& context)
       : m_context(context),
         m_integrator(context.prepared),
+        m_edges(context.prepared),
         m_spread(kDispersive || context.options.restir == Restir::Hero ? Spread::Hero : Spread::Lanes) {}
+
+  void prepare(const Tile& tile) override {
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        m_edges.look(x, y);
+      }
+    }
+  }
 
   void learn(const Tile& tile) override {
     WavelengthGuide& guide = *m_context.guide;
     WavelengthGuide::Spectrum spectrum;
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        if (!guide.isLearntFrom(x, y)) {
-          continue;
-        }
+    PathStarts<C> starts;
+    typename Integrator::Radiances worths;
+    const auto parts = [&](int x, int y) { return guide.isLearntFrom(x, y) ? 1U : 0U; };
+    forGroups(tile, parts, [&](const PixelGroup& group) {
+      starts.count = group.count;
+      for (std::size_t i = 0; i < group.count; ++i) {
         // Random numbers of no replicate of the film: it does not depend on what was learnt from them.
-        PathStart<C> start = startOf(x, y, sequenceFor(pixelOf(x, y), kReplicates), 0);
-        Lanes<C> worth = m_integrator.radiance(start.ray, start.wavelengths, start.random, NoResampling());
-        for (int k = 0; k < C; ++k) {
-          worth[k] *=
-              start.wavelengths.weight[k] * m_context.sensor.worth(start.wavelengths.cell[static_cast<std::size_t>(k)]);
-        }
-        guide.learn<C>(guide.blockOf(x, y), start.wavelengths, worth, spectrum);
+        const PixelGroup::Place& place = group.places[i];
+        const Sequence sequence = sequenceFor(place.pixel, kReplicates);
+        const Sampler sampler(sequence.number, 0);
+        starts.paths[i] = startOf(place, {sampler, sampler.set(sequence.first)});
       }
-    }
+      m_integrator.radiance(starts, kNoResampling, worths);
+      for (std::size_t i = 0; i < group.count; ++i) {
+        const WavelengthSet<C>& wavelengths = starts.paths[i].wavelengths;
+        for (int k = 0; k < C; ++k) {
+          worths[i][k] *= wavelengths.weight[k] * m_context.sensor.worth(wavelengths.cell[static_cast<std::size_t>(k)]);
+        }
+        guide.learn<C>(guide.blockOf(group.places[i].x, group.places[i].y), wavelengths, worths[i], spectrum);
+      }
+    });
     guide.add(spectrum);
   }
 
   void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, bool isKept) override {
     const Replicates& replicates = m_context.film.format().replicates;
-    std::vector<Place> places;
-    for (std::uint64_t sample = begin; sample < end; ++sample) {
-      places.push_back({replicates.of(sample), static_cast<std::uint32_t>(replicates.index(sample))});
-    }
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      for (int x = tile.x0; x < tile.x1; ++x) {
-        const std::size_t pixel = pixelOf(x, y);
-        std::array<std::optional<Sequence>, kReplicates> sequences;
-        for (std::uint64_t sample = begin; sample < end; ++sample) {
-          const Place& place = places[sample - begin];
-          std::optional<Sequence>& sequence = sequences[place.replicate];
+    PathStarts<C> starts;
+    typename Integrator::Radiances radiances;
+    const auto parts = [&](int x, int y) { return m_edges.paths(pixelOf(x, y)); };
+    forGroups(tile, parts, [&](const PixelGroup& group) {
+      starts.count = group.count;
+      std::array<std::array<std::optional<Sequence>, kRaysTogether>, kReplicates> sequences;
+      std::array<std::uint32_t, kRaysTogether> indices{};
+      std::array<Sampler::Order, kRaysTogether> orders{};
+      std::array<Sampler::Set, kRaysTogether> sets{};
+      for (std::uint64_t sample = begin; sample < end; ++sample) {
+        const std::size_t replicate = replicates.of(sample);
+        const auto index = static_cast<std::uint32_t>(replicates.index(sample));
+        for (std::size_t i = 0; i < group.count; ++i) {
+          const PixelGroup::Place& place = group.places[i];
+          std::optional<Sequence>& sequence = sequences[replicate][i];
           if (!sequence) {
-            sequence = sequenceFor(pixel, place.replicate);
+            sequence = sequenceFor(place.pixel, replicate);
           }
-          PathStart<C> start = startOf(x, y, *sequence, place.index);
-          const Lanes<C> radiance = radianceOf(x, y, sample, start);
-          if (isKept) {
-            m_context.sensor.template add<C>(m_context.film, pixel, place.replicate, start.wavelengths, radiance);
-          }
+          indices[i] = index * place.parts + place.part;
+          orders[i] = {indices[i], &sequence->first, &sets[i]};
+        }
+        Sampler::fill({orders.data(), group.count});
+        for (std::size_t i = 0; i < group.count; ++i) {
+          starts.paths[i] = startOf(group.places[i], {Sampler(sequences[replicate][i]->number, indices[i]), sets[i]});
+        }
+        radianceOf(group, sample, starts, radiances);
+        for (std::size_t i = 0; i < group.count && isKept; ++i) {
+          const PixelGroup::Place& place = group.places[i];
+          m_context.sensor.template add<C>(m_context.film, place.pixel, replicate, starts.paths[i].wavelengths,
+                                           radiances[i] / static_cast<float>(place.parts));
         }
       }
-    }
+    });
   }
 
  protected:
-  virtual Lanes<C> radianceOf(int /*x*/, int /*y*/, std::uint64_t /*sample*/, PathStart<C>& start) {
-    return m_integrator.radiance(start.ray, start.wavelengths, start.random, NoResampling());
+  using Integrator = PathIntegrator<C, kDispersive>;
+
+  virtual void radianceOf(const PixelGroup& /*group*/, std::uint64_t /*sample*/, PathStarts<C>& starts,
+                          typename Integrator::Radiances& radiances) {
+    m_integrator.radiance(starts, kNoResampling, radiances);
   }
 
   std::size_t pixelOf(int x, int y) const {
@@ -90,14 +129,11 @@ class LaneTracer : public TileTracer {
   }
 
   const TracerContext m_context;
-  const PathIntegrator<C, kDispersive> m_integrator;
+  const Integrator m_integrator;
 
  private:
-  /// Where a sample stands among those of its pixel.
-  struct Place {
-    std::size_t replicate;
-    std::uint32_t index;
-  };
+  static constexpr std::array<NoResampling, kRaysTogether> kNoResampling{};
+
   /// Random numbers of a pixel's replicate, with what they begin with worked out once.
   struct Sequence {
     explicit Sequence(std::uint32_t name) : number(name), first(name, 0) {}
@@ -105,14 +141,44 @@ class LaneTracer : public TileTracer {
     Sampler::Seeds first;
   };
 
+  /// Deals the paths of a tile's pixels out in groups of neighbours. @param parts  paths of a pixel; 0: none
+  template <typename Parts, typename Work>
+  void forGroups(const Tile& tile, const Parts& parts, const Work& work) const {
+    constexpr int kAcross = 4;
+    constexpr int kDown = static_cast<int>(kRaysTogether) / kAcross;
+    PixelGroup group;
+    const auto finish = [&] {
+      if (group.count > 0) {
+        work(group);
+        group.count = 0;
+      }
+    };
+    for (int top = tile.y0; top < tile.y1; top += kDown) {
+      for (int left = tile.x0; left < tile.x1; left += kAcross) {
+        for (int i = 0; i < kAcross * kDown; ++i) {
+          const int x = left + i % kAcross;
+          const int y = top + i / kAcross;
+          const std::uint32_t count = x < tile.x1 && y < tile.y1 ? parts(x, y) : 0U;
+          for (std::uint32_t part = 0; part < count; ++part) {
+            group.places[group.count++] = {x, y, pixelOf(x, y), part, count};
+            if (group.count == kRaysTogether) {
+              finish();
+            }
+          }
+        }
+      }
+    }
+    finish();
+  }
+
   Sequence sequenceFor(std::size_t pixel, std::size_t replicate) const {
     return Sequence(sequenceOf(m_context.options.seed, pixel, replicate));
   }
 
-  PathStart<C> startOf(int x, int y, const Sequence& sequence, std::uint32_t index) const {
-    const PathRandom random(Sampler(sequence.number, index), sequence.first);
-    const Eigen::Vector2f place = m_context.prepared.camera.filtered(x, y, random.pixel());
-    return {random, wavelengthsOf(x, y, random.wavelength()), m_context.prepared.camera.ray(place.x(), place.y())};
+  PathStart<C> startOf(const PixelGroup::Place& at, const PathRandom& random) const {
+    const Eigen::Vector2f place = m_context.prepared.camera.filtered(at.x, at.y, random.pixel());
+    return {random, wavelengthsOf(at.x, at.y, random.wavelength()),
+            m_context.prepared.camera.ray(place.x(), place.y())};
   }
 
   WavelengthSet<C> wavelengthsOf(int x, int y, float u) const {
@@ -128,6 +194,7 @@ class LaneTracer : public TileTracer {
                               : sampleWavelengths<C>(guide->picture(), u, m_spread);
   }
 
+  EdgeMap m_edges;
   const Spread m_spread;
 };
 
@@ -135,9 +202,11 @@ class LaneTracer : public TileTracer {
 /// neighbours (4.3).
 template <int C, bool kDispersive>
 class ReservoirTracer : public LaneTracer<C, kDispersive> {
+  using Base = LaneTracer<C, kDispersive>;
+
  public:
   explicit ReservoirTracer(const TracerContext& context)
-      : LaneTracer<C, kDispersive>(context),
+      : Base(context),
         m_blockSide(blockSideFor(context.film.format())),
         m_blocksAcross(blocksAlong(context.film.format().width, m_blockSide)),
         m_cuts(*context.prepared.tree, blocks(context.film.format(), m_blockSide)),
@@ -151,6 +220,7 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
 
   /// The light cuts of the tile's blocks.
   void prepare(const Tile& tile) override {
+    Base::prepare(tile);
     std::vector<LitPoint> receivers;
     for (int y = tile.y0; y < tile.y1; y += m_blockSide) {
       for (int x = tile.x0; x < tile.x1; x += m_blockSide) {
@@ -174,10 +244,18 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
   void restore(StateReader& reader, std::uint64_t sample) override { reader.getAll(m_reservoirs[(sample + 1) % 2]); }
 
  protected:
-  Lanes<C> radianceOf(int x, int y, std::uint64_t sample, PathStart<C>& start) override {
-    m_reservoirs[sample % 2][this->pixelOf(x, y)].confidence = 0.0F;
-    return this->m_integrator.radiance(start.ray, start.wavelengths, start.random,
-                                       Resampling{*this, m_sampler, isHero(), x, y, sample});
+  void radianceOf(const PixelGroup& group, std::uint64_t sample, PathStarts<C>& starts,
+                  typename Base::Integrator::Radiances& radiances) override {
+    std::array<Resampling, kRaysTogether> resampling;
+    std::array<Reservoir<C>, kRaysTogether> reservoirs;  // none filled yet
+    for (std::size_t i = 0; i < group.count; ++i) {
+      resampling[i] = {this, &m_sampler, &reservoirs[i], isHero(), group.places[i], sample};
+    }
+    this->m_integrator.radiance(starts, resampling, radiances);
+    // Of several paths of a pixel the last one leaves its reservoir to neighbours.
+    for (std::size_t i = 0; i < group.count; ++i) {
+      m_reservoirs[sample % 2][group.places[i].pixel] = reservoirs[i];
+    }
   }
 
  private:
@@ -190,23 +268,25 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
   /// What the integrator asks for at the first surface.
   struct Resampling {
     static constexpr bool kResamples = true;
-    ReservoirTracer& tracer;
-    const ReservoirSampler<C>& sampler;
-    bool isHero;
-    int x;
-    int y;
-    std::uint64_t sample;
+    ReservoirTracer* tracer = nullptr;
+    const ReservoirSampler<C>* sampler = nullptr;
+    Reservoir<C>* own = nullptr;
+    bool isHero = false;
+    PixelGroup::Place place;
+    std::uint64_t sample = 0;
     const Reservoir<C>& fill(const Hit& hit, const Lanes<C>& reflected, const WavelengthSet<C>& wavelengths,
                              const WavelengthSet<C>& seen, const PathRandom& random) const {
-      return tracer.fill(*this, hit, reflected, wavelengths, seen, random);
+      return tracer->fill(*this, hit, reflected, wavelengths, seen, random);
     }
   };
 
   /// Independent numbers for choices among reservoirs.
   class HashRandom {
    public:
-    HashRandom(std::uint32_t seed, std::size_t pixel, std::uint64_t sample)
-        : m_key(hash32(hash32(seed, static_cast<std::uint32_t>(pixel)), static_cast<std::uint32_t>(sample))) {}
+    HashRandom(std::uint32_t seed, const PixelGroup::Place& place, std::uint64_t sample)
+        : m_key(
+              hash32(hash32(hash32(seed, static_cast<std::uint32_t>(place.pixel)), static_cast<std::uint32_t>(sample)),
+                     place.part)) {}
     float next() { return unitFloat(hash32(m_key, ++m_count)); }
 
    private:
@@ -238,7 +318,7 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
   ReservoirDomain<C> domainOf(const Resampling& at, const Hit& hit, const Lanes<C>& reflected,
                               const WavelengthSet<C>& wavelengths, const WavelengthSet<C>& seen) const {
     ReservoirDomain<C> domain;
-    domain.block = static_cast<std::uint32_t>(blockOf(at.x, at.y));
+    domain.block = static_cast<std::uint32_t>(blockOf(at.place.x, at.place.y));
     domain.place = {hit.position.x(), hit.position.y(), hit.position.z()};
     domain.up = {hit.normal.x(), hit.normal.y(), hit.normal.z()};
     for (int k = 0; k < C; ++k) {
@@ -263,8 +343,7 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
   const Reservoir<C>& fill(const Resampling& at, const Hit& hit, const Lanes<C>& reflected,
                            const WavelengthSet<C>& wavelengths, const WavelengthSet<C>& seen,
                            const PathRandom& random) {
-    const std::size_t pixel = this->pixelOf(at.x, at.y);
-    Reservoir<C>& own = m_reservoirs[at.sample % 2][pixel];
+    Reservoir<C>& own = *at.own;
     own = m_sampler.fresh(domainOf(at, hit, reflected, wavelengths, seen),
                           random.candidates(ReservoirSampler<C>::kLog2Candidates), random.candidate());
     if (at.sample % kSamplesTogether == 0) {
@@ -272,16 +351,16 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
     }
     const std::vector<Reservoir<C>>& before = m_reservoirs[(at.sample + 1) % 2];
     const FilmFormat& format = this->m_context.film.format();
-    HashRandom choices(this->m_context.options.seed, pixel, at.sample);
+    HashRandom choices(this->m_context.options.seed, at.place, at.sample);
     for (int i = 0; i < kNeighbours; ++i) {
       // One by one: the order in which a call's arguments are worked out is the compiler's.
       const float across = choices.next();
       const float along = choices.next();
       const float u = choices.next();
       const Eigen::Vector2f offset = squareToDisc(across, along) * kRadius;
-      const int x = at.x + static_cast<int>(std::lround(offset.x()));
-      const int y = at.y + static_cast<int>(std::lround(offset.y()));
-      if (x < 0 || y < 0 || x >= format.width || y >= format.height || (x == at.x && y == at.y)) {
+      const int x = at.place.x + static_cast<int>(std::lround(offset.x()));
+      const int y = at.place.y + static_cast<int>(std::lround(offset.y()));
+      if (x < 0 || y < 0 || x >= format.width || y >= format.height || (x == at.place.x && y == at.place.y)) {
         continue;
       }
       const Reservoir<C>& other = before[this->pixelOf(x, y)];

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/vector_lanes.h"
 #include "lights/light_tree.h"
 
 namespace metamer::spectral_ref {
@@ -52,7 +53,7 @@ class LightBranches {
   };
   static constexpr std::uint32_t kLeaf = 0;  // no node has the root below it
 
-  static Each<float> importances(const Node& node, const LitPoint& point);
+  METAMER_VECTOR_LANES static Each<float> importances(const Node& node, const LitPoint& point);
   void add(const LightTree& tree, std::uint32_t root, std::size_t index, std::uint32_t leafSize);
 
   std::vector<Node> m_nodes;

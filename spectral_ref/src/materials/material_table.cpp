@@ -58,6 +58,9 @@ MaterialTable::MaterialTable(const Scene& scene) {
         break;
       case Material::Kind::Gel:
         m_hasGels = true;
+        if (material.sheetIndex > 0) {
+          prepared.sheet = std::make_shared<GelSheet>(scene.whole(material.colour), material.sheetIndex);
+        }
         break;
       case Material::Kind::Fluorescent:
         prepared.fluorescence = fluorescences[material.fluorescence];

@@ -11,6 +11,7 @@
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
 #include "materials/fluorescence_table.h"
+#include "materials/gel_sheet.h"
 #include "metamer/spectral_ref/scene.h"
 #include "wavelengths/lanes.h"
 
@@ -28,6 +29,7 @@ struct PreparedMaterial {
   GgxEnergy energy;
   std::vector<float> perCell;  ///< conductor: mean Fresnel reflectance; dielectric: index
   std::shared_ptr<const FluorescenceTable> fluorescence;
+  std::shared_ptr<const GelSheet> sheet;  ///< of a gel that depends on the angle
 };
 
 /// The BSDF at a point for the wavelengths of a path, whichever kind it is.
@@ -146,7 +148,13 @@ class MaterialTable {
   }
   bool hasGels() const { return m_hasGels; }
   bool isGel(std::uint32_t material) const { return m_materials[material].kind == Material::Kind::Gel; }
-  SpectrumId gelTransmittance(std::uint32_t material) const { return m_materials[material].colour; }
+  /// What a gel passes. @param cosine  of the ray to the gel's normal
+  template <int C>
+  Lanes<C> gelTransmittance(std::uint32_t material, float cosine, const SpectrumTables& spectra,
+                            const WavelengthSet<C>& wavelengths) const {
+    const PreparedMaterial& gel = m_materials[material];
+    return gel.sheet ? gel.sheet->transmittance<C>(cosine, wavelengths) : spectra.at(gel.colour, wavelengths);
+  }
   /// Whether any material sends wavelengths different ways.
   bool isDispersive() const { return m_isDispersive; }
 

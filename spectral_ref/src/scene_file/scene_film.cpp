@@ -30,6 +30,16 @@ SpectralBins readBins(const YamlValue& value) {
   return bins;
 }
 
+std::array<float, 8> chromaticitiesOf(const spectral::RgbSpace& space) {
+  std::array<float, 8> xy{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Eigen::Vector2d& place = i < 3 ? space.primaries[i] : space.white;
+    xy[2 * i] = static_cast<float>(place.x());
+    xy[2 * i + 1] = static_cast<float>(place.y());
+  }
+  return xy;
+}
+
 void readSpace(const YamlMap& section, const spectral::DataLibrary& library, FilmSettings& film) {
   const auto value = section.find("space");
   const bool isXyz = film.observer.response == Observer::Response::Xyz;
@@ -51,6 +61,8 @@ void readSpace(const YamlMap& section, const spectral::DataLibrary& library, Fil
     throw value->error("observer '" + film.observer.name + "' has no matrix to XYZ; use 'space: native'");
   }
   if (name == "XYZ") {
+    constexpr float kThird = 1.0F / 3.0F;
+    film.chromaticities = {1.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, kThird, kThird};
     return;
   }
   spectral::ColourSpace space;
@@ -63,6 +75,7 @@ void readSpace(const YamlMap& section, const spectral::DataLibrary& library, Fil
     throw value->error("is encoded; a film is linear, name a linear space such as ACEScg");
   }
   film.colourFromResponse = space.linear.rgbFromXyz() * film.colourFromResponse;
+  film.chromaticities = chromaticitiesOf(space.linear);
 }
 
 void readFilter(const YamlValue& value, FilmSettings& film) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "materials/gel_sheet.h"
 #include "scene_file/scene_fluorescence.h"
 #include "scene_file/scene_skin.h"
 
@@ -128,6 +129,29 @@ Material readDielectric(const YamlValue& value, SceneSpectra& spectra, const Sce
   return material;
 }
 
+/// A gel: a transmittance, or one with the index of its sheet.
+Material readGel(const YamlValue& value, SceneSpectra& spectra, const Scene& scene) {
+  Material material;
+  material.kind = Material::Kind::Gel;
+  if (!value.isMap()) {
+    material.colour = spectra.find(value, Use::Transmittance);
+    return material;
+  }
+  const YamlMap section(value, {"transmittance", "index"});
+  const YamlValue colour = section.require("transmittance", "is missing; name the gel's spectrum");
+  material.colour = spectra.find(colour, Use::Transmittance);
+  material.sheetIndex =
+      section.require("index", "is missing; such as index: 1.49, or 'gel: NAME' for one that knows no angle")
+          .number(kLowestIndex, kHighestIndex);
+  const double clear = clearSheet(material.sheetIndex);
+  const double most = scene.spectra[material.colour].maxCoeff();
+  if (most > clear) {
+    throw colour.error("", "passes " + std::to_string(most) + " somewhere, more than the " + std::to_string(clear) +
+                               " of a clear sheet of this index; lower the index, or say 'gel: NAME'");
+  }
+  return material;
+}
+
 }  // namespace
 
 std::uint32_t addDiffuse(Scene& scene, SpectrumId reflectance) {
@@ -160,10 +184,7 @@ Surface readSurface(const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
     set(*fluorescent, readFluorescent(*fluorescent, spectra, scene));
   }
   if (const auto gel = shape.find("gel")) {
-    Material given;
-    given.kind = Material::Kind::Gel;
-    given.colour = spectra.find(*gel, Use::Transmittance);
-    set(*gel, given);
+    set(*gel, readGel(*gel, spectra, scene));
   }
   if (const auto conductor = shape.find("conductor")) {
     set(*conductor, readConductor(*conductor, spectra));

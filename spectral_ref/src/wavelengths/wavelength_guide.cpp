@@ -66,11 +66,21 @@ bool isEven(const spectral::DomainSamples& worth, int lanes) {
   return varianceWithUniformLanes(worth, lanes) < kLittleVariance;
 }
 
+/// Side of a block, pixels: in large pictures as many as memory asks for.
+int sideFor(int width, int height, bool isEvenLight) {
+  constexpr double kMostBlocks = 1 << 22;
+  int side = isEvenLight ? 2 : 1;
+  while (side < 8 && static_cast<double>(width) * height > kMostBlocks * side * side) {
+    side *= 2;
+  }
+  return side;
+}
+
 }  // namespace
 
 WavelengthGuide::WavelengthGuide(int width, int height, int lanes, const spectral::DomainSamples& expected,
                                  const Channels& channels)
-    : m_side(isEven(expected, lanes) ? 2 : 1),
+    : m_side(sideFor(width, height, isEven(expected, lanes))),
       m_width((width + m_side - 1) / m_side),
       m_height((height + m_side - 1) / m_side),
       m_lanes(lanes),
@@ -130,20 +140,23 @@ void WavelengthGuide::shareOut(const spectral::DomainSamples& learnt) {
 
 void WavelengthGuide::sumBands() {
   constexpr std::size_t kBinsABand = kBins / kBands;
-  std::vector<Bands> own(m_hasOwn.size());
-  for (std::size_t i = 0; i < m_learnt.size(); ++i) {
-    own[i / kBins][i % kBins / kBinsABand] += m_learnt[i];
-  }
-  m_bands.assign(own.size(), {});
+  m_bands.assign(m_hasOwn.size(), {});
   tbb::parallel_for(0, m_height, [&](int y) {
+    // Of three rows each column's, then of three columns.
+    std::vector<Bands> columns(static_cast<std::size_t>(m_width));
+    for (int row = std::max(0, y - 1); row <= std::min(m_height - 1, y + 1); ++row) {
+      for (std::size_t x = 0; x < columns.size(); ++x) {
+        const float* bins = m_learnt.data() + (blockAt(0, row) + x) * kBins;
+        for (std::size_t bin = 0; bin < kBins; ++bin) {
+          columns[x][bin / kBinsABand] += bins[bin];
+        }
+      }
+    }
     for (int x = 0; x < m_width; ++x) {
       Bands& bands = m_bands[blockAt(x, y)];
-      for (int row = std::max(0, y - 1); row <= std::min(m_height - 1, y + 1); ++row) {
-        for (int column = std::max(0, x - 1); column <= std::min(m_width - 1, x + 1); ++column) {
-          const Bands& other = own[blockAt(column, row)];
-          for (std::size_t band = 0; band < kBands; ++band) {
-            bands[band] += other[band];
-          }
+      for (int column = std::max(0, x - 1); column <= std::min(m_width - 1, x + 1); ++column) {
+        for (std::size_t band = 0; band < kBands; ++band) {
+          bands[band] += columns[static_cast<std::size_t>(column)][band];
         }
       }
     }

@@ -28,7 +28,8 @@ namespace metamer::spectral_ref {
 /// densities stay as they are: so samples stay stratified by wavelength over the whole render. None is zero anywhere.
 ///
 /// A block is a pixel; but where the lights alone ask for uniform lanes, so that only a rare surface could ask for
-/// others, it is 2 x 2 pixels, and a path of one of them is enough to learn from.
+/// others, it is 2 x 2 pixels, and a path of one of them is enough to learn from. So it is in pictures of more than
+/// four million pixels, for the memory's sake.
 class WavelengthGuide {
  public:
   static constexpr int kBins = 20;

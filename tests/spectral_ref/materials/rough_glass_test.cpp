@@ -4,6 +4,7 @@
 // the renderer draws directions.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -109,6 +110,34 @@ TEST_P(RoughGlassTest, APlateGivesBackWhatItsFacetsDo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Roughness, RoughGlassTest, testing::Values(0.1, 0.3, 0.6, 1.0));
+
+/// What docs/spectral_ref.md says a ball of rough glass gives back of even light, by roughness and index.
+TEST(RoughGlassTest, ABallLosesWhatTheManualSays) {
+  const std::string camera = "{origin: [0, 0, 4], target: [0, 0, 0], fov_x: 40}";
+  const auto ball = [&](const std::string& material) {
+    return luminanceOf(inEvenLight(camera, 64, "  - sphere: {center: [0, 0, 0], radius: 1}\n    " + material + "\n"),
+                       128);
+  };
+  const double nothing = luminanceOf(inEvenLight(camera, 64, "  []\n"), 128);
+  const double black = ball("diffuse: 0");
+  const struct {
+    const char* roughness;
+    std::array<double, 3> givenBack;  ///< by index 1.33, 1.5, 1.8
+  } rows[] = {{"0.1", {0.946, 0.937, 0.920}},
+              {"0.2", {0.857, 0.830, 0.789}},
+              {"0.4", {0.690, 0.633, 0.558}},
+              {"1", {0.415, 0.335, 0.250}}};
+  constexpr std::array<const char*, 3> kIndices = {"1.33", "1.5", "1.8"};
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < kIndices.size(); ++i) {
+      const double glass =
+          ball(std::string("dielectric: {index: ") + kIndices[i] + ", roughness: " + row.roughness + "}");
+      // Two digits are what the manual gives.
+      EXPECT_NEAR(1.0 - (nothing - glass) / (nothing - black), row.givenBack[i], 5e-3)
+          << "roughness " << row.roughness << ", index " << kIndices[i];
+    }
+  }
+}
 
 TEST(RoughGlassTest, ABallAddsNoLight) {
   const std::string camera = "{origin: [0, 0, 4], target: [0, 0, 0], fov_x: 40}";

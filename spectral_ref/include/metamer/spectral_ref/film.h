@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct FilmFormat {
   Eigen::Matrix3d colourFromResponse = Eigen::Matrix3d::Identity();
   double colourScale = 1;  ///< 1, or 683 lm/W times the integral of the luminance curve for photometric films
   std::string space;
+  std::optional<std::array<float, 8>> chromaticities;  ///< as FilmSettings has them
   std::string observer;
   Replicates replicates;
 

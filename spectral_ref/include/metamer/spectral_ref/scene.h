@@ -48,6 +48,8 @@ struct FilmSettings {
   /// Luminance (Y) as a sum of the observer's three responses.
   Eigen::Vector3d luminanceOfResponse = Eigen::Vector3d::UnitY();
   std::string space = "XYZ";
+  /// xy of red, green, blue and white of that space, one after another; none for a camera's own channels.
+  std::optional<std::array<float, 8>> chromaticities;
   bool photometric = false;  ///< R, G, B and Y in cd.m^-2 instead of relative to a radiance of 1
   SpectralBins bins;
   enum class Filter { Box, Gaussian } filter = Filter::Box;
@@ -85,6 +87,7 @@ struct Material {
   double roughness = 0;               ///< GGX alpha, 0 ... 1
   std::optional<SpectrumId> f0 = {};  ///< RoughConductor: reflectance at normal incidence instead of eta and k
   RefractiveIndex index;              ///< dielectrics: inside against outside
+  double sheetIndex = 0;              ///< Gel: of the sheet, whose transmittance falls with the angle; 0: it does not
 };
 
 /// Light of a surface: one spectrum, or a picture whose pixels mix several.
