@@ -184,17 +184,35 @@ bool WavelengthGuide::isUnlikePicture(std::size_t block) const {
 WavelengthGuide::Bins WavelengthGuide::smoothed(std::size_t block) const {
   const int x = static_cast<int>(block % static_cast<std::size_t>(m_width));
   const int y = static_cast<int>(block / static_cast<std::size_t>(m_width));
-  const Bands& bands = m_bands[block];
+  // Once built the sums are no longer kept: they are worked out anew for the few blocks that are asked about.
+  const auto bandsOf = [&](std::size_t center) {
+    if (!m_bands.empty()) {
+      return m_bands[center];
+    }
+    Bands result{};
+    const int column = static_cast<int>(center % static_cast<std::size_t>(m_width));
+    const int row = static_cast<int>(center / static_cast<std::size_t>(m_width));
+    for (int v = std::max(0, row - 1); v <= std::min(m_height - 1, row + 1); ++v) {
+      for (int u = std::max(0, column - 1); u <= std::min(m_width - 1, column + 1); ++u) {
+        for (std::size_t bin = 0; bin < kBins; ++bin) {
+          result[bin * kBands / kBins] += m_learnt[blockAt(u, v) * kBins + bin];
+        }
+      }
+    }
+    return result;
+  };
+  const Bands bands = bandsOf(block);
   Bins bins{};
   double sum = 0;
   for (int row = std::max(0, y - kRadius); row <= std::min(m_height - 1, y + kRadius); ++row) {
     for (int column = std::max(0, x - kRadius); column <= std::min(m_width - 1, x + kRadius); ++column) {
       const std::size_t other = blockAt(column, row);
+      const Bands otherBands = bandsOf(other);
       float difference = 0;
       float size = 0;
       for (std::size_t band = 0; band < kBands; ++band) {
         const float a = bands[band];
-        const float b = m_bands[other][band];
+        const float b = otherBands[band];
         difference += (a - b) * (a - b);
         size += 0.25F * (a + b) * (a + b);
       }
@@ -250,6 +268,7 @@ void WavelengthGuide::build() {
   m_below.resize(m_learnt.size());
   sumBands();
   tbb::parallel_for(std::size_t{0}, m_hasOwn.size(), [&](std::size_t block) { buildBlock(block); });
+  std::vector<Bands>().swap(m_bands);
   m_isReady = true;
 }
 
