@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cstddef>
 
-#include "geometry/vector_lanes.h"
+#include "metamer/spectral/vector_lanes.h"
 
 namespace metamer::spectral_ref {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "geometry/vector_lanes.h"
+#include "metamer/spectral/vector_lanes.h"
 
 namespace metamer::spectral_ref {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/vector_lanes.h"
 #include "lights/light_tree.h"
+#include "metamer/spectral/vector_lanes.h"
 
 namespace metamer::spectral_ref {
 
