@@ -18,7 +18,8 @@ constexpr double kFirstScale = 0.125;
 /// Which channels a logarithm is for; the others stay as they are.
 enum class Channels { Third, All };
 
-/// log2(value / at) + kSignedLogToe above `at`, a straight line through zero below, which meets it smoothly; `times` that.
+/// log2(value / at) + kSignedLogToe above `at`, a straight line through zero below, which meets it smoothly; `times`
+/// that.
 OCIO::LogCameraTransformRcPtr logAbove(double at, Channels channels, OCIO::TransformDirection direction,
                                        double times = 1.0) {
   const auto perChannel = [&](double identity, double log, double(&values)[3]) {

@@ -162,7 +162,8 @@ CertificateRecord readCertificate(const std::filesystem::path& file) {
 std::vector<CertificateChange> changesBetween(const CertificateRecord& before, const CertificateRecord& after) {
   const Json a = certificateJson(before.text);
   const Json b = certificateJson(after.text);
-  std::vector<std::string> parts = {"recipe", "inputs", "transform", "range", "error", "graphics_cards", "pixels", "diagnostics"};
+  std::vector<std::string> parts = {"recipe", "inputs",         "transform", "range",
+                                    "error",  "graphics_cards", "pixels",    "diagnostics"};
   for (const Json* document : {&a, &b}) {
     for (const auto& [key, value] : document->items()) {
       if (std::find(parts.begin(), parts.end(), key) == parts.end()) {
