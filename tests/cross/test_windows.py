@@ -15,7 +15,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+import frames
+
 BUNDLE = Path(os.environ["METAMER_BUNDLE"])
 WINDOWS = Path(os.environ["METAMER_BIN"])
 LINUX = Path(os.environ["METAMER_LINUX_BIN"])
@@ -24,16 +25,6 @@ ENTRY_POINTS = {"OfxGetNumberOfPlugins", "OfxGetPlugin", "OfxSetHost"}
 # Of every Windows 10: the kernel and the C runtime that comes with it.
 SYSTEM_LIBRARIES = r"(?i)(kernel32|ntdll|advapi32|api-ms-win-crt-[\w-]+)\.dll"
 FOLDER = "プラグイン ☀ й é"
-RECIPES = 12
-SETTINGS = [
-    (0, ["outputIlluminant=HP1", "adaptation=0.3"]),
-    (0, ["outputIlluminant=HP1", "quality=Exact", "mix=0.5"]),
-    (0, ["outputIlluminant=Blackbody", "outputTemperature=2000", "scene=Skin", "quality=Exact"]),
-    (0, ["outputIlluminant=FL11", "scene=Smooth", "cat=bradford", "keepExposure=1"]),
-    (0, ["outputIlluminant=A", "scene=Data set", "space=ARRI LogC4", "quality=Exact"]),
-    (2, ["melanin=2", "blood=1.5", "quality=Exact"]),
-    (2, ["tan=1", "flush=0.5", "illuminant=A"]),
-]
 
 
 def output(*words):
@@ -48,14 +39,10 @@ def program(*names):
     return found[0]
 
 
-def environment(library, scratch=None):
+def wine_environment(library, scratch):
     # Names reach wine in the locale's encoding; it makes its folder of settings where it is told.
-    own = dict(os.environ, METAMER_OFX_LIBRARY=str(library), LC_ALL="C.UTF-8", WINEDEBUG="-all")
-    own.pop("METAMER_DATA", None)
-    if scratch is not None:
-        own |= {"WINEPREFIX": str(scratch), "WINEDLLOVERRIDES": "mscoree,mshtml=", "DISPLAY": "",
-                "WINESERVER": program("wineserver64", "wineserver")}
-    return own
+    return frames.environment(library, WINEDEBUG="-all", WINEPREFIX=str(scratch), WINEDLLOVERRIDES="mscoree,mshtml=", DISPLAY="",
+                              WINESERVER=program("wineserver64", "wineserver"))
 
 
 class Windows(unittest.TestCase):
@@ -66,7 +53,7 @@ class Windows(unittest.TestCase):
         cls.folder = Path(temporary.name)
         cls.bundle = cls.folder / FOLDER / BUNDLE.name
         shutil.copytree(BUNDLE, cls.bundle)
-        own = environment(cls.bundle / LIBRARY, cls.folder / "wine")
+        own = wine_environment(cls.bundle / LIBRARY, cls.folder / "wine")
         # Its server outlives its programs for a while, and writes into the folder.
         cls.addClassCleanup(subprocess.run, [own["WINESERVER"], "--kill"], env=own)
         cls.wine = functools.partial(subprocess.run, capture_output=True, text=True, cwd=cls.folder,
@@ -90,49 +77,17 @@ class Windows(unittest.TestCase):
         self.assertEqual({name for name in libraries if not re.fullmatch(SYSTEM_LIBRARIES, name)}, set())
 
     def test_passes_the_suite_of_hosts(self):
-        run = self.wine([program("wine64", "wine"), WINDOWS / "ofx_host_tests.exe"])
-        self.assertEqual(run.returncode, 0, run.stdout[-6000:] + run.stderr[-2000:])
-        passed = re.search(r"\[  PASSED  \] (\d+) tests", run.stdout)
-        self.assertGreater(int(passed[1]), 50, run.stdout[-2000:])
-        self.assertNotIn("SKIPPED", run.stdout)
-
-    def jobs(self, system):
-        """A file of jobs, and the pictures that they make. Windows' see the same files by the same relative names."""
-        jobs = [(effect, settings) for effect, settings in SETTINGS]
-        recipes = self.folder / "レシピ é"
-        shutil.copytree(ROOT / "configs/recipes", recipes, dirs_exist_ok=True)
-        names = sorted((ROOT / "configs/recipes").glob("*.yaml"))
-        for k, recipe in enumerate(names[:: len(names) // RECIPES][:RECIPES]):
-            copy = recipes / f"{recipe.stem} 夜.yaml"
-            shutil.copy(recipe, copy)
-            jobs.append((0, [f"recipeFile={copy.relative_to(self.folder)}", f"quality={('Map', 'Exact')[k % 2]}"]))
-        lamp = recipes / "лампа.csv"
-        lamp.write_text("nm,power\n380,1\n580,1\n780,3\n", encoding="utf-8")
-        lit = lamp.with_name("灯.yaml")
-        lit.write_text("metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: лампа.csv}\n", encoding="utf-8")
-        jobs.append((0, [f"recipeFile={lit.relative_to(self.folder)}"]))
-        pictures = [f"{system} 絵 {k}.f32" for k in range(len(jobs))]
-        text = "".join("\t".join([str(effect), picture, *settings]) + "\n" for (effect, settings), picture in zip(jobs, pictures))
-        (self.folder / f"{system}.txt").write_text(text, encoding="utf-8", newline="\n")
-        return [self.folder / picture for picture in pictures]
+        frames.assert_passes(self, self.wine([program("wine64", "wine"), WINDOWS / "ofx_host_tests.exe"]))
 
     def test_renders_what_linux_renders_bit_for_bit(self):
-        linux, windows = self.jobs("linux"), self.jobs("windows")
+        linux, windows = frames.jobs(self.folder, "linux"), frames.jobs(self.folder, "windows")
         own = LINUX.parent / "OFX/metamer.ofx.bundle/Contents/Linux-x86-64/metamer.ofx"
         run = subprocess.run([LINUX / "metamer_ofx_frames", "linux.txt"], cwd=self.folder, capture_output=True, text=True,
-                             env=environment(own))
+                             env=frames.environment(own))
         self.assertEqual(run.returncode, 0, run.stderr)
         run = self.wine([program("wine64", "wine"), WINDOWS / "metamer_ofx_frames.exe", "windows.txt"])
         self.assertEqual(run.returncode, 0, run.stderr)
-        texts = (self.folder / "linux.txt").read_text(encoding="utf-8").splitlines()
-        seen = {}
-        for text, one, other in zip(texts, linux, windows, strict=True):
-            a, b = one.read_bytes(), other.read_bytes()
-            self.assertEqual(len(a), 160 * 90 * 16)
-            self.assertNotIn(a, seen, f"{text} is {seen.get(a)}: not told apart")
-            seen[a] = text
-            differing = sum(a[i : i + 4] != b[i : i + 4] for i in range(0, len(a), 4)) if a != b else 0
-            self.assertEqual(differing, 0, f"numbers of {len(a) // 4} that differ: {text}")
+        frames.assert_same(self, self.folder, "linux", linux, windows)
 
 
 if __name__ == "__main__":
