@@ -4,6 +4,7 @@
 import os
 import re
 import shutil
+import subprocess
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -17,6 +18,11 @@ SETTINGS = [
     (2, ["melanin=2", "blood=1.5", "quality=Exact"]),
     (2, ["tan=1", "flush=0.5", "illuminant=A"]),
 ]
+
+
+def output(*words):
+    """What a program prints."""
+    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
 
 
 def environment(library, **more):

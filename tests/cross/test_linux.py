@@ -23,10 +23,6 @@ ALLOWED = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "ld-linux-
 GLIBC = (2, 28)
 
 
-def output(*words):
-    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
-
-
 class Linux(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -43,11 +39,11 @@ class Linux(unittest.TestCase):
         self.assertFalse(any(path.is_symlink() for path in BUNDLE.rglob("*")))
 
     def test_exports_the_entry_points_alone(self):
-        symbols = {line.split()[-1] for line in output("nm", "-D", "--defined-only", BUNDLE / LIBRARY).splitlines()}
+        symbols = {line.split()[-1] for line in frames.output("nm", "-D", "--defined-only", BUNDLE / LIBRARY).splitlines()}
         self.assertEqual(symbols, ENTRY_POINTS)
 
     def test_asks_for_nothing_but_an_old_c_library(self):
-        told = output("readelf", "--dynamic", "--version-info", "--wide", BUNDLE / LIBRARY)
+        told = frames.output("readelf", "--dynamic", "--version-info", "--wide", BUNDLE / LIBRARY)
         self.assertLessEqual(set(re.findall(r"\(NEEDED\).*\[(.*)\]", told)), ALLOWED)
         versions = {tuple(map(int, number.split("."))) for number in re.findall(r"Name: GLIBC_([0-9.]+)", told)}
         self.assertLess((2, 2), max(versions))

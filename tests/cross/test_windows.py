@@ -27,10 +27,6 @@ SYSTEM_LIBRARIES = r"(?i)(kernel32|ntdll|advapi32|api-ms-win-crt-[\w-]+)\.dll"
 FOLDER = "プラグイン ☀ й é"
 
 
-def output(*words):
-    return subprocess.run([str(word) for word in words], capture_output=True, text=True, check=True).stdout
-
-
 def program(*names):
     """Debian keeps wine's programs out of the path."""
     found = [path for name in names if (path := shutil.which(name, path=f"/usr/lib/wine:{os.environ['PATH']}"))]
@@ -67,11 +63,11 @@ class Windows(unittest.TestCase):
         self.assertFalse(any(path.is_symlink() for path in BUNDLE.rglob("*")))
 
     def test_exports_the_entry_points_alone(self):
-        told = output("llvm-readobj", "--coff-exports", BUNDLE / LIBRARY)
+        told = frames.output("llvm-readobj", "--coff-exports", BUNDLE / LIBRARY)
         self.assertEqual(set(re.findall(r"Name: (\S+)", told)), ENTRY_POINTS)
 
     def test_asks_for_nothing_but_the_system(self):
-        told = output("llvm-readobj", "--coff-imports", BUNDLE / LIBRARY)
+        told = frames.output("llvm-readobj", "--coff-imports", BUNDLE / LIBRARY)
         libraries = set(re.findall(r"Name: (\S+\.\w+)$", told, re.MULTILINE))
         self.assertIn("KERNEL32.dll", libraries)
         self.assertEqual({name for name in libraries if not re.fullmatch(SYSTEM_LIBRARIES, name)}, set())

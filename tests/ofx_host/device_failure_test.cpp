@@ -77,18 +77,9 @@ TEST_F(OfxDeviceFailure, EachCallFailingOnceIsLivedThrough) {
       const Host host(builtLibrary(), features());
       const auto effect = host.create(0, m_settings);
       effect->set("quality", quality);
-      Frame source({.bounds = kBounds});
-      source.fill(testPixel);
       Frame expected({.bounds = kBounds});
-      effect->connect("Source", source.image());
-      effect->connect("Output", expected.image());
-      ASSERT_EQ(draft(*effect, kBounds), kOfxStatOK);
-      Frame output({.bounds = kBounds});
-      const DeviceFrame sourceThere(m_device, source);
-      const DeviceFrame outputThere(m_device, output);
-      effect->connect("Source", sourceThere.image());
-      effect->connect("Output", outputThere.image());
-      onDevice(*effect);
+      drawExpected(*effect, expected);
+      const Pictures pictures(*this, *effect, kBounds);
       ledger()->calls = 0;
       ledger()->failing = failing;
       ledger()->status = m_words.failure;
@@ -97,9 +88,9 @@ TEST_F(OfxDeviceFailure, EachCallFailingOnceIsLivedThrough) {
       ledger()->failing = 0;
       EXPECT_EQ(effect->effect().imagesOut, 0);
       EXPECT_LE(effect->effect().messagesShown, 1);
-      EXPECT_TRUE(outputThere.bring());
+      EXPECT_TRUE(pictures.outputThere.bring());
       if (status == kOfxStatOK) {
-        expectEqual(output, expected);
+        expectEqual(pictures.output, expected);
         ++answered;
       } else {
         EXPECT_EQ(status, kDeviceRenderFailed);

@@ -33,6 +33,34 @@ class OfxDevice : public ::testing::Test {
 
   DeviceLedger* ledger() const { return reinterpret_cast<DeviceLedgerFunction*>(m_ledger.symbol("metamerLedger"))(); }
 
+  static Frame filled(const OfxRectI& bounds) {
+    Frame frame({.bounds = bounds});
+    frame.fill(testPixel);
+    return frame;
+  }
+
+  /// A source and an output on the device, clips of an effect that renders there from now on.
+  struct Pictures {
+    Pictures(const OfxDevice& test, Instance& effect, const OfxRectI& bounds)
+        : source(filled(bounds)), output({.bounds = bounds}), device(test.m_device) {
+      effect.connect("Source", sourceThere.image());
+      effect.connect("Output", outputThere.image());
+      test.onDevice(effect);
+    }
+    Frame source;
+    Frame output;
+    const DeviceHost& device;
+    const DeviceFrame sourceThere{device, source};
+    const DeviceFrame outputThere{device, output};
+  };
+  /// What the processor draws of the same source, in memory.
+  static void drawExpected(Instance& effect, Frame& expected) {
+    const Frame source = filled(expected.shape().bounds);
+    effect.connect("Source", source.image());
+    effect.connect("Output", expected.image());
+    ASSERT_EQ(draft(effect, expected.shape().bounds), kOfxStatOK);
+  }
+
   /// Renders the frames in memory, then in buffers, and expects the same bytes, in and around the pixels.
   struct Case {
     Frame::Shape source;

@@ -138,26 +138,17 @@ TEST_F(OfxDevice, OneBufferForBothIsRight) {
 TEST_F(OfxDevice, ReturnsBeforeTheHostLetsItsQueueRun) {
   const Host host(builtLibrary(), features());
   const auto effect = host.create(0, kLamp);
-  Frame source({.bounds = kBounds});
-  source.fill(testPixel);
   Frame expected({.bounds = kBounds});
-  effect->connect("Source", source.image());
-  effect->connect("Output", expected.image());
-  ASSERT_EQ(draft(*effect, kBounds), kOfxStatOK);
-  Frame output({.bounds = kBounds});
-  const DeviceFrame sourceThere(m_device, source);
-  const DeviceFrame outputThere(m_device, output);
-  effect->connect("Source", sourceThere.image());
-  effect->connect("Output", outputThere.image());
-  onDevice(*effect);
+  drawExpected(*effect, expected);
+  const Pictures pictures(*this, *effect, kBounds);
   void* const event = m_device.hold();
   auto rendered = std::async(std::launch::async, [&] { return draft(*effect, kBounds); });
   const bool hasReturned = rendered.wait_for(std::chrono::seconds(20)) == std::future_status::ready;
   m_device.signal(event);
   EXPECT_TRUE(hasReturned);
   ASSERT_EQ(rendered.get(), kOfxStatOK);
-  EXPECT_TRUE(outputThere.bring());
-  expectEqual(output, expected);
+  EXPECT_TRUE(pictures.outputThere.bring());
+  expectEqual(pictures.output, expected);
 }
 
 TEST_F(OfxDevice, BuildsOnceAndUploadsOnceAMap) {

@@ -54,8 +54,9 @@ class Baking {
 
   /// The same of a file on a graphics card.
   void certifyOnCards(const std::filesystem::path& file) {
+    const auto operators = shaderOperators(file);
     const auto candidate = [&](TextureDepth depth) {
-      return Candidate(textureProcessor(file, depth), m_operators.toPixels, m_operators.fromPixels);
+      return Candidate(textureProcessor(operators, depth), m_operators.toPixels, m_operators.fromPixels);
     };
     m_judged.certifyOnCards(candidate(TextureDepth::Float), candidate(TextureDepth::Half));
   }

@@ -51,30 +51,30 @@ bool roundIf(const OCIO::TransformRcPtr& transform) {
 
 }  // namespace
 
-PixelProcessor textureProcessor(const OCIO::ConstTransformRcPtr& transform, TextureDepth depth) {
-  const auto rounded = OCIO::GroupTransform::Create();
+OCIO::ConstGroupTransformRcPtr shaderOperators(const std::filesystem::path& file) {
   try {
     // As for a shader: what can be one operator is one, and tables that are asked backwards are made anew.
-    const auto operators =
-        OCIO::Config::CreateRaw()
-            ->getProcessor(transform)
-            ->getOptimizedProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, OCIO::OPTIMIZATION_DEFAULT)
-            ->createGroupTransform();
-    for (int k = 0; k < operators->getNumTransforms(); ++k) {
-      const OCIO::TransformRcPtr each = operators->getTransform(k)->createEditableCopy();
-      if (depth == TextureDepth::Half) {
-        roundIf<OCIO::Lut1DTransform>(each) || roundIf<OCIO::Lut3DTransform>(each);
-      }
-      rounded->appendTransform(each);
-    }
+    return OCIO::Config::CreateRaw()
+        ->getProcessor(fileTransform(file))
+        ->getOptimizedProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, OCIO::OPTIMIZATION_DEFAULT)
+        ->createGroupTransform();
   } catch (const OCIO::Exception& error) {
     throw spectral::InputError("OpenColorIO", "", "", spectral::colourReason(error.what()));
   }
-  return PixelProcessor(rounded);
 }
 
-PixelProcessor textureProcessor(const std::filesystem::path& file, TextureDepth depth) {
-  return textureProcessor(fileTransform(file), depth);
+PixelProcessor textureProcessor(const OCIO::ConstGroupTransformRcPtr& operators, TextureDepth depth) {
+  if (depth == TextureDepth::Float) {
+    return PixelProcessor(operators);
+  }
+  const auto rounded = OCIO::GroupTransform::Create();
+  for (int k = 0; k < operators->getNumTransforms(); ++k) {
+    // A copy of each: one of the group would share its tables.
+    const OCIO::TransformRcPtr each = operators->getTransform(k)->createEditableCopy();
+    roundIf<OCIO::Lut1DTransform>(each) || roundIf<OCIO::Lut3DTransform>(each);
+    rounded->appendTransform(each);
+  }
+  return PixelProcessor(rounded);
 }
 
 }  // namespace metamer::ocio

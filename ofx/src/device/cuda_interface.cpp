@@ -6,6 +6,7 @@
 
 #include "device/buffer_image.h"
 #include "device/cuda_programs.h"
+#include "device/loaded_interface.h"
 #include "device/window_launch.h"
 
 namespace metamer::ofx {
@@ -153,18 +154,7 @@ class Queue final : public DeviceQueue {
   std::optional<CudaScope> m_scope;  ///< where the thread had no context
 };
 
-class Interface final : public DeviceInterface {
- public:
-  explicit Interface(std::shared_ptr<const Cuda> library) : m_library(library), m_programs(std::move(library)) {}
-
-  std::unique_ptr<DeviceQueue> open(void* queue) override {
-    return std::make_unique<Queue>(m_library, m_programs, queue);
-  }
-
- private:
-  std::shared_ptr<const Cuda> m_library;
-  CudaPrograms m_programs;
-};
+using Interface = LoadedInterface<Cuda, CudaPrograms, Queue>;
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "device/buffer_image.h"
+#include "device/loaded_interface.h"
 #include "device/metal_programs.h"
 #include "device/window_launch.h"
 
@@ -161,18 +162,7 @@ class Queue final : public DeviceQueue {
   Object m_marker = nullptr;
 };
 
-class Interface final : public DeviceInterface {
- public:
-  explicit Interface(std::shared_ptr<const ObjectiveC> library) : m_library(library), m_programs(std::move(library)) {}
-
-  std::unique_ptr<DeviceQueue> open(void* queue) override {
-    return std::make_unique<Queue>(m_library, m_programs, queue);
-  }
-
- private:
-  std::shared_ptr<const ObjectiveC> m_library;
-  MetalPrograms m_programs;
-};
+using Interface = LoadedInterface<ObjectiveC, MetalPrograms, Queue>;
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "device/buffer_image.h"
+#include "device/loaded_interface.h"
 #include "device/opencl_programs.h"
 #include "device/window_launch.h"
 
@@ -27,12 +28,12 @@ BufferExtent extentOf(const OpenCl& library, OpenCl::Handle buffer) {
 
 class Queue final : public DeviceQueue {
  public:
-  Queue(const OpenCl& library, OpenClPrograms& programs, OpenCl::Handle queue)
-      : m_library(library),
+  Queue(const std::shared_ptr<const OpenCl>& library, OpenClPrograms& programs, OpenCl::Handle queue)
+      : m_library(*library),
         m_programs(programs),
         m_queue(queue),
-        m_context(openClInfo<OpenCl::Handle>(library.queueInfo, queue, OpenCl::kQueueContext, kAskingQueue)),
-        m_device(openClInfo<OpenCl::Handle>(library.queueInfo, queue, OpenCl::kQueueDevice, kAskingQueue)) {}
+        m_context(openClInfo<OpenCl::Handle>(library->queueInfo, queue, OpenCl::kQueueContext, kAskingQueue)),
+        m_device(openClInfo<OpenCl::Handle>(library->queueInfo, queue, OpenCl::kQueueDevice, kAskingQueue)) {}
 
   DeviceImage image(const PixelView& view) override {
     return bufferImage(view, [&](void* buffer) {
@@ -117,18 +118,7 @@ class Queue final : public DeviceQueue {
   OpenCl::Owned m_marker{nullptr, nullptr};
 };
 
-class Interface final : public DeviceInterface {
- public:
-  explicit Interface(std::shared_ptr<const OpenCl> library) : m_library(library), m_programs(std::move(library)) {}
-
-  std::unique_ptr<DeviceQueue> open(void* queue) override {
-    return std::make_unique<Queue>(*m_library, m_programs, queue);
-  }
-
- private:
-  std::shared_ptr<const OpenCl> m_library;
-  OpenClPrograms m_programs;
-};
+using Interface = LoadedInterface<OpenCl, OpenClPrograms, Queue>;
 
 }  // namespace
 

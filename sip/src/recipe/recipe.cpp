@@ -186,10 +186,7 @@ Recipe parseRecipe(const std::string& text, const std::string& where) {
   }
   const YamlMap top(YamlValue::parse(text, where),
                     {"metamer", "name", "space", "input", "output", "scene", "cat", "balanced", "keep_exposure"});
-  const YamlValue version = top.require("metamer", "is missing; a recipe starts with 'metamer: 1'");
-  if (!version.is("1")) {
-    throw version.error("is a version this release does not read; it reads 1, a number without quotes");
-  }
+  top.requireVersion();
   Recipe recipe;
   recipe.where = where;
   top.read("name", recipe.name);

@@ -4,6 +4,7 @@
 // primary's.
 #include <utility>
 
+#include "uplift/curve_mixture.h"
 #include "uplift/methods.h"
 #include "uplift/uplift_basis.h"
 
@@ -35,14 +36,10 @@ class Smits : public Uplift {
       std::swap(middle, largest);
     }
     // The secondary that lacks a component stands at that component's place.
-    const double* const secondary = m_secondaries[static_cast<std::size_t>(least)].data();
-    const double* const primary = m_primaries[static_cast<std::size_t>(largest)].data();
-    const double ofWhite = rgb[least];
-    const double ofSecondary = rgb[middle] - rgb[least];
-    const double ofPrimary = rgb[largest] - rgb[middle];
-    for (Eigen::Index i = 0; i < m_white.size(); ++i) {
-      spectrum[i] = ofWhite * m_white[i] + ofSecondary * secondary[i] + ofPrimary * primary[i];
-    }
+    const Eigen::VectorXd& secondary = m_secondaries[static_cast<std::size_t>(least)];
+    const Eigen::VectorXd& primary = m_primaries[static_cast<std::size_t>(largest)];
+    mixCurves({&m_white, &secondary, &primary}, {rgb[least], rgb[middle] - rgb[least], rgb[largest] - rgb[middle]},
+              spectrum);
   }
 
   Eigen::VectorXd m_white;

@@ -145,7 +145,6 @@ const YamlNode* YamlNode::find(const std::string& key) const {
 
 YamlNode parseYaml(const std::string& text, const std::string& where, const YamlForm& form) {
   const std::string& document = form.name;
-  const std::string version = document == "recipe" ? "metamer" : "metamer_" + document;
   const std::string utf8(checkedUtf8(text, where));
   int line = 1;
   for (const char c : utf8) {
@@ -159,7 +158,7 @@ YamlNode parseYaml(const std::string& text, const std::string& where, const Yaml
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) {
-      throw InputError(where, document, "", "is empty; a " + document + " starts with '" + version + ": 1'");
+      throw InputError(where, document, "", "is empty; " + form.beginning());
     }
     YamlNode root = std::move(builder).root();
     TreeBuilder second(where, form);

@@ -126,7 +126,7 @@ YamlMap::YamlMap(const YamlValue& value, std::initializer_list<const char*> keys
   const std::vector<std::string> known(keys.begin(), keys.end());
   if (!isMap()) {
     throw error("must be a map of " + joined(known) +
-                (m_field.empty() ? ", such as '" + known.front() + ": 1'" : std::string()));
+                (m_field.empty() ? ", such as '" + m_document->form.versionKey() + ": 1'" : std::string()));
   }
   std::vector<std::string> seen;
   for (const YamlMember& member : m_node->members) {
@@ -170,6 +170,14 @@ std::vector<std::string> YamlMap::keys() const {
     result.push_back(member.key);
   }
   return result;
+}
+
+void YamlMap::requireVersion() const {
+  const YamlForm& form = m_document->form;
+  const YamlValue version = require(form.versionKey(), "is missing; " + form.beginning());
+  if (!version.is("1")) {
+    throw version.error("is a version this release does not read; it reads 1, a number without quotes");
+  }
 }
 
 void YamlMap::read(const std::string& key, std::string& target) const {

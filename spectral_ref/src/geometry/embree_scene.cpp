@@ -59,6 +59,18 @@ RTCRay embreeRay(const Ray& ray) {
   return result;
 }
 
+/// Embree's functions for rays take their context before the rays in its third release, and after them since.
+template <typename Function, typename Rays, typename... First>
+void ask(const Function& function, Rays& rays, First... first) {
+#ifdef METAMER_EMBREE_4
+  function(first..., &rays, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  function(first..., &context, &rays);
+#endif
+}
+
 bool isAlone(RayMask active) {
   return (active & (active - 1U)) == 0;
 }
@@ -198,13 +210,7 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
   query.ray = embreeRay(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#ifdef METAMER_EMBREE_4
-  rtcIntersect1(m_handles->scene.get(), &query, nullptr);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(m_handles->scene.get(), &context, &query);
-#endif
+  ask(rtcIntersect1, query, m_handles->scene.get());
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return false;
   }
@@ -228,18 +234,11 @@ RayMask EmbreeScene::intersect(const RayGroup& rays, RayMask active, HitGroup& h
     query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-#ifdef METAMER_EMBREE_4
-  rtcIntersect8(valid.data(), m_handles->scene.get(), &query, nullptr);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect8(valid.data(), m_handles->scene.get(), &context, &query);
-#endif
+  ask(rtcIntersect8, query, valid.data(), m_handles->scene.get());
   RayMask found = 0;
-  for (RayMask rest = active; rest != 0; rest &= rest - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+  forEachRay(active, [&](std::size_t i) {
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
-      continue;
+      return;
     }
     found |= RayMask{1} << i;
     Hit& hit = hits[i];
@@ -248,19 +247,13 @@ RayMask EmbreeScene::intersect(const RayGroup& rays, RayMask active, HitGroup& h
     hit.v = query.hit.v[i];
     describe(rays[i], query.hit.geomID[i], query.hit.primID[i],
              {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]}, hit);
-  }
+  });
   return found;
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {
   RTCRay query = embreeRay(ray);
-#ifdef METAMER_EMBREE_4
-  rtcOccluded1(m_handles->scene.get(), &query, nullptr);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded1(m_handles->scene.get(), &context, &query);
-#endif
+  ask(rtcOccluded1, query, m_handles->scene.get());
   return query.tfar < 0.0F;
 }
 
@@ -272,18 +265,9 @@ RayMask EmbreeScene::occluded(const RayGroup& rays, RayMask active) const {
   RTCRay8 query;
   alignas(32) std::array<int, kRaysTogether> valid;
   pack(rays, active, query, valid);
-#ifdef METAMER_EMBREE_4
-  rtcOccluded8(valid.data(), m_handles->scene.get(), &query, nullptr);
-#else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcOccluded8(valid.data(), m_handles->scene.get(), &context, &query);
-#endif
+  ask(rtcOccluded8, query, valid.data(), m_handles->scene.get());
   RayMask found = 0;
-  for (RayMask rest = active; rest != 0; rest &= rest - 1) {
-    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-    found |= query.tfar[i] < 0.0F ? RayMask{1} << i : 0U;
-  }
+  forEachRay(active, [&](std::size_t i) { found |= query.tfar[i] < 0.0F ? RayMask{1} << i : 0U; });
   return found;
 }
 

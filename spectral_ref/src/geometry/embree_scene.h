@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -33,6 +34,14 @@ using RayGroup = std::array<Ray, kRaysTogether>;
 using HitGroup = std::array<Hit, kRaysTogether>;
 /// Bit i stands for ray i of a group.
 using RayMask = std::uint32_t;
+
+/// Calls `work` with the number of each ray of a mask, from the first.
+template <typename Work>
+void forEachRay(RayMask mask, const Work& work) {
+  for (; mask != 0; mask &= mask - 1U) {
+    work(static_cast<std::size_t>(std::countr_zero(mask)));
+  }
+}
 
 /// The shapes in Embree's hierarchy. The only file that knows Embree is its source.
 class EmbreeScene {

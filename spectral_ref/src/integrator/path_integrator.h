@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 
 #include "integrator/gel_passage.h"
@@ -48,16 +47,17 @@ class PathIntegrator {
     RayMask alive = (RayMask{1} << starts.count) - 1U;
     for (int edge = 1; alive != 0; ++edge) {
       const RayMask found = nextSurfaces(group, alive);
-      forEach(alive & ~found & ~group.absorbed,
-              [&](std::size_t i) { addEnvironment(group.rays[i], group.paths[i], resampling[i]); });
-      forEach(found, [&](std::size_t i) { addEmission(group.rays[i], group.hits[i], group.paths[i], resampling[i]); });
+      forEachRay(alive & ~found & ~group.absorbed,
+                 [&](std::size_t i) { addEnvironment(group.rays[i], group.paths[i], resampling[i]); });
+      forEachRay(found,
+                 [&](std::size_t i) { addEmission(group.rays[i], group.hits[i], group.paths[i], resampling[i]); });
       if (edge >= m_settings.maxDepth) {
         break;
       }
       toVertex(edge - 1, found, starts);
       alive = 0;
       group.lit = 0;
-      forEach(found, [&](std::size_t i) {
+      forEachRay(found, [&](std::size_t i) {
         alive |= surface(edge, i, group, starts.paths[i], resampling[i]) ? RayMask{1} << i : 0U;
       });
       addDirect(group);
@@ -92,17 +92,10 @@ class PathIntegrator {
     RayMask absorbed = 0;  ///< paths that a gel has ended
   };
 
-  template <typename Work>
-  static void forEach(RayMask mask, const Work& work) {
-    for (; mask != 0; mask &= mask - 1U) {
-      work(static_cast<std::size_t>(std::countr_zero(mask)));
-    }
-  }
-
   static void toVertex(int number, RayMask paths, PathStarts<C>& starts) {
     std::array<PathRandom*, kRaysTogether> randoms{};
     std::size_t count = 0;
-    forEach(paths, [&](std::size_t i) { randoms[count++] = &starts.paths[i].random; });
+    forEachRay(paths, [&](std::size_t i) { randoms[count++] = &starts.paths[i].random; });
     PathRandom::vertex(static_cast<std::uint32_t>(number), {randoms.data(), count});
   }
 
@@ -113,7 +106,7 @@ class PathIntegrator {
       return m_prepared.shapes.intersect(group.rays, alive, group.hits);
     }
     RayMask found = 0;
-    forEach(alive, [&](std::size_t i) {
+    forEachRay(alive, [&](std::size_t i) {
       Path& path = group.paths[i];
       const Passage passage = throughGels(m_prepared, group.rays[i], group.hits[i], path.throughput, path.lanes);
       found |= passage == Passage::Hit ? RayMask{1} << i : 0U;
@@ -129,10 +122,10 @@ class PathIntegrator {
     }
     if (!m_hasGels) {
       const RayMask hidden = m_prepared.shapes.occluded(group.shadowRays, group.lit);
-      forEach(group.lit & ~hidden, [&](std::size_t i) { group.paths[i].radiance += group.paths[i].direct; });
+      forEachRay(group.lit & ~hidden, [&](std::size_t i) { group.paths[i].radiance += group.paths[i].direct; });
       return;
     }
-    forEach(group.lit, [&](std::size_t i) {
+    forEachRay(group.lit, [&](std::size_t i) {
       Path& path = group.paths[i];
       if (gelsTransmit(m_prepared, group.shadowRays[i], path.emitter, path.direct, path.lanes)) {
         path.radiance += path.direct;

@@ -50,10 +50,7 @@ Scene parseScene(const std::string& text, const std::string& where, const std::f
                  const spectral::DataLibrary& library) {
   const YamlMap top(parseSceneText(text, where),
                     {"metamer_scene", "film", "camera", "integrator", "spectra", "shapes", "lights"});
-  const auto version = top.require("metamer_scene", "is missing; a scene starts with 'metamer_scene: 1'");
-  if (!version.is("1")) {
-    throw version.error("is a version this release does not read; it reads 1, a number without quotes");
-  }
+  top.requireVersion();
   Scene scene(readFilm(top.find("film"), library, folder));
   scene.camera = readCamera(top.find("camera"));
   scene.integrator = readIntegrator(top.find("integrator"));

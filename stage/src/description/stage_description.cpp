@@ -32,7 +32,7 @@ constexpr double kLargestPixel = 1e6;
 /// `count` numbers of a list.
 std::vector<double> numbersOf(const YamlValue& value, std::size_t count, double low, double high,
                               const std::string& example) {
-  if (!value.isSequence() || value.items().size() != count) {
+  if (!value.isSequence() || value.size() != count) {
     throw value.error("must be a list of " + std::to_string(count) + " numbers, such as " + example);
   }
   return value.numbers(low, high);
@@ -57,7 +57,7 @@ std::vector<std::string> namesOf(const YamlMap& section, const std::string& key)
 }
 
 std::vector<Eigen::Vector2d> cornersOf(const YamlValue& value) {
-  if (!value.isSequence() || value.items().size() != 4) {
+  if (!value.isSequence() || value.size() != 4) {
     throw value.error("must be four pixels, such as [[100, 80], [700, 90], [690, 480], [110, 470]]");
   }
   std::vector<Eigen::Vector2d> result;
@@ -242,10 +242,7 @@ StageDescription parseStage(const std::string& text, const std::string& where, c
   const YamlMap top(YamlValue::parse(text, where, {.name = kDocument}),
                     {"metamer_stage", "name", "primaries", "charts", "spectra", "calibration_square", "environment",
                      "black_level", "q", "noise", "saturation", "exclude", "colour_space", "ramps"});
-  const YamlValue version = top.require("metamer_stage", "is missing; a stage file starts with 'metamer_stage: 1'");
-  if (!version.is("1")) {
-    throw version.error("is a version this release does not read; it reads 1, a number without quotes");
-  }
+  top.requireVersion();
   StageDescription stage;
   stage.folder = folder;
   stage.where = where;

@@ -121,7 +121,7 @@ class TextureProcessorTest : public testing::Test {
     for (const TextureDepth depth : {TextureDepth::Float, TextureDepth::Half}) {
       const std::vector<float> expected = shader.run(device, pixels, depth);
       std::vector<float> emulated = pixels;
-      textureProcessor(file, depth).apply(emulated);
+      textureProcessor(shaderOperators(file), depth).apply(emulated);
       const double off = largestShare(expected, emulated, pixels);
       std::printf("[ shader ] %s, %s: off by %.2g of a pixel's size at most\n", given.extension,
                   depth == TextureDepth::Half ? "halves" : "floats", off);
@@ -169,7 +169,7 @@ TEST_F(TextureProcessorTest, FloatTexturesAreTheFile) {
   std::vector<float> expected = colours();
   std::vector<float> given = expected;
   PixelProcessor::fromFile(file).apply(expected);
-  textureProcessor(file, TextureDepth::Float).apply(given);
+  textureProcessor(shaderOperators(file), TextureDepth::Float).apply(given);
   EXPECT_EQ(given, expected);
   // And so does the certificate say.
   ASSERT_TRUE(certificate.onCards.has_value());
@@ -181,7 +181,7 @@ TEST_F(TextureProcessorTest, FloatTexturesAreTheFile) {
 
 TEST_F(TextureProcessorTest, RefusesWhatIsNoFile) {
   EXPECT_NE(spectral::errorOf([&] {
-              textureProcessor(m_folder.path() / "none.cube", TextureDepth::Half);
+              textureProcessor(shaderOperators(m_folder.path() / "none.cube"), TextureDepth::Half);
             }).find("no such file"),
             std::string::npos);
 }

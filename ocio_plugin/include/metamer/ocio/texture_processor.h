@@ -13,13 +13,13 @@ enum class TextureDepth {
   Half    ///< 16 bits, to the nearest: 11 digits of two, infinite beyond 65504
 };
 
-/// A transform as OCIO's shader runs it on a graphics card: the same operators, their tables as textures of that depth,
-/// 3-D tables looked up by tetrahedra where the transform says so. Emulated on the processor; a test holds it to the
-/// shader itself.
-/// @throws spectral::InputError where OCIO refuses the transform
-PixelProcessor textureProcessor(const OCIO::ConstTransformRcPtr& transform, TextureDepth depth);
+/// What OCIO's shader for a LUT file of any format that it reads is made of.
+/// @throws spectral::InputError: no such file, or OCIO cannot read it
+OCIO::ConstGroupTransformRcPtr shaderOperators(const std::filesystem::path& file);
 
-/// The same of a LUT file of any format OCIO reads. @throws spectral::InputError: no such file, or OCIO cannot read it
-PixelProcessor textureProcessor(const std::filesystem::path& file, TextureDepth depth);
+/// These operators as a graphics card runs them: their tables as textures of that depth, 3-D tables looked up by
+/// tetrahedra where they say so. Emulated on the processor; a test holds it to the shader itself.
+/// @throws spectral::InputError where OCIO refuses an operator
+PixelProcessor textureProcessor(const OCIO::ConstGroupTransformRcPtr& operators, TextureDepth depth);
 
 }  // namespace metamer::ocio

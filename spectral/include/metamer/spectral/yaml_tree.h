@@ -37,6 +37,11 @@ struct YamlForm {
   int deepest = 16;             ///< levels
   int mostNodes = 10000;
   bool saysColumns = false;  ///< whether messages name the column beside the line
+
+  /// The key that a document starts with: "metamer", "metamer_stage".
+  std::string versionKey() const { return name == "recipe" ? "metamer" : "metamer_" + name; }
+  /// "a stage starts with 'metamer_stage: 1'".
+  std::string beginning() const { return "a " + name + " starts with '" + versionKey() + ": 1'"; }
 };
 
 /// Parses one document. Aliases, anchors, tags, a second document, control characters, more levels or nodes than the

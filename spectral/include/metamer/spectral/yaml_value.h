@@ -37,6 +37,8 @@ class YamlValue {
   /// Dotted name, empty at the top.
   const std::string& field() const { return m_field; }
 
+  /// Of a list, else 0.
+  std::size_t size() const { return m_node->items.size(); }
   /// A name, not empty.
   std::string text() const;
   /// A whole token without quotes, finite, from low to high.
@@ -73,6 +75,8 @@ class YamlMap : public YamlValue {
   YamlValue require(const std::string& key, const std::string& remedy) const;
   /// In the order of the file.
   std::vector<std::string> keys() const;
+  /// Of a document's top: refuses one without its version, and every version but 1.
+  void requireVersion() const;
 
   /// Each leaves `target` alone where the key is not there.
   void read(const std::string& key, std::string& target) const;
