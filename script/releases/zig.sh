@@ -59,7 +59,7 @@ make_macos_runtime() {
 make_libraries() {
   local target=$1 name folder=build/cross/$1 wanted
   local stamp=$folder/libraries.sha256
-  wanted=$(cat script/cross script/releases/{debian_sources.sh,zig.sh,zig.txt} cmake/cross/*.cmake "$sources"/*.dsc | sha256sum | cut -d ' ' -f 1)
+  wanted=$(cat script/releases/{debian_sources.sh,zig.sh,zig.txt} cmake/cross/*.cmake "$sources"/*.dsc | sha256sum | cut -d ' ' -f 1)
   [[ -f $stamp && $(<"$stamp") == "$wanted" ]] && return
   step "libraries for $target"
   rm -rf "$folder"
@@ -80,7 +80,7 @@ make_bundle() {
   shift
   make_libraries "$target"
   step "bundle for $target"
-  configure_and_build "$target" "$PWD" "$folder/metamer" "$PWD/$folder" -DMETAMER_OFX_ONLY=ON -DMETAMER_STRICT_PATHS=ON -DBUILD_TESTING=OFF "$@"
+  configure_and_build "$target" "$PWD" "$folder/metamer" "$PWD/$folder" -DMETAMER_OFX_ONLY=ON -DMETAMER_STRICT_PATHS=ON -DMETAMER_PRECOMPILED=ON -DBUILD_TESTING=OFF "$@"
   rm -rf "$folder/OFX"
   cmake --install "$folder/metamer" --component ofx >/dev/null
 }
