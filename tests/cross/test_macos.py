@@ -2,7 +2,7 @@
 """The bundle for macOS, as far as it can be checked where nothing can run it: for whom it was built, what it shows and asks of
 the system, and that its signature is of these very bytes.
 
-script/cross runs it: METAMER_BUNDLE is the bundle.
+script/cross runs it: METAMER_BUNDLE is the bundle, METAMER_LINUX_BIN the folder of the native build's programs.
 """
 
 import os
@@ -14,9 +14,16 @@ from pathlib import Path
 import mach_o
 
 BUNDLE = Path(os.environ["METAMER_BUNDLE"])
+NATIVE = Path(os.environ["METAMER_LINUX_BIN"])
 LIBRARY = "Contents/MacOS/metamer.ofx"
 ENTRY_POINTS = {"_OfxGetNumberOfPlugins", "_OfxGetPlugin", "_OfxSetHost"}
 MINIMUM = (11, 0, 0)
+# What the system's library of that version has, as far as the bundle asks.
+SYSTEM = {line for line in (Path(__file__).parent / "macos_11.txt").read_text().splitlines() if not line.startswith("#")}
+# Of Objective-C's library, asked for by name when a host brings Metal.
+OBJECTIVE_C = (b"objc_getClass", b"sel_registerName", b"object_getClass", b"class_respondsToSelector",
+               b"class_getMethodImplementation", b"objc_autoreleasePoolPush", b"objc_autoreleasePoolPop")
+MESSAGES = (b"newLibraryWithSource:options:error:", b"setFastMathEnabled:", b"dispatchThreadgroups:threadsPerThreadgroup:")
 
 
 class MacOs(unittest.TestCase):
@@ -25,9 +32,7 @@ class MacOs(unittest.TestCase):
         cls.slices = mach_o.slices((BUNDLE / LIBRARY).read_bytes())
 
     def each(self):
-        for processor, part in self.slices.items():
-            with self.subTest(processor=hex(processor)):
-                yield part
+        return self.slices.values()
 
     def test_has_the_shape_that_hosts_look_for(self):
         names = {path.relative_to(BUNDLE).as_posix() for path in BUNDLE.rglob("*") if path.is_file()}
@@ -66,7 +71,9 @@ class MacOs(unittest.TestCase):
         for part in self.each():
             self.assertEqual(part.libraries(), ["/usr/lib/libSystem.B.dylib"])
             asked = part.undefined()
-            self.assertIn("_pthread_create", asked)
+            # Not from the compiler's library, which has them too.
+            self.assertLessEqual({"_pthread_create", "_memcpy", "_exp", "_log"}, set(asked))
+            self.assertEqual(sorted(set(asked) - SYSTEM), [], "not in the library of macOS 11")
             self.assertEqual({name for name, description in asked.items() if description >> 8 != 1}, set(), "from another library")
             # The C++ library is within.
             self.assertEqual([name for name in asked if name.startswith("__Z")], [])
@@ -77,6 +84,15 @@ class MacOs(unittest.TestCase):
             self.assertFalse(part.flags & (mach_o.WEAK_DEFINES | mach_o.BINDS_TO_WEAK))
             self.assertEqual(part.weak_binds(), 0)
             self.assertEqual([name for name, description in part.undefined().items() if description & mach_o.N_WEAK_REF], [])
+
+    def test_renders_with_metal_by_the_kernels_that_were_tested(self):
+        text = (NATIVE.parent / "ofx/window_texts/window.metal").read_bytes()
+        self.assertIn(b"#include <metal_stdlib>", text)
+        for part in self.each():
+            self.assertEqual(part.data.count(text + b"\0"), 1)
+            missing = [name for name in (*OBJECTIVE_C, *MESSAGES, b"METAMER_OFX_METAL") if b"\0" + name + b"\0" not in part.data]
+            self.assertEqual(missing, [])
+            self.assertLessEqual({"_dlopen", "_dlsym"}, set(part.undefined()))
 
     def test_is_signed_to_the_last_page(self):
         for part in self.each():

@@ -4,35 +4,75 @@
 #include <hwy/detect_targets.h>
 
 #include <atomic>
+#if HWY_ARCH_X86 && defined(__APPLE__)
+#include <sys/sysctl.h>
+
+#include <algorithm>
+#include <initializer_list>
+#endif
 
 namespace metamer::sip {
 namespace {
 
-/// What the processor has, by the compiler's own test, which also asks whether the operating system keeps the wide
-/// registers. Where the compiler has none: what every program of this build relies on anyway.
+/// What a processor of Intel's kind has, and the system keeps the registers of; each comes with all that stands before
+/// it.
+struct Features {
+  bool ssse3 = false;
+  bool sse4 = false;
+  bool avx2 = false;
+  bool avx512 = false;
+};
+
+#if HWY_ARCH_X86 && defined(__APPLE__)
+/// By the system's word: the compiler's test would bring a library that takes the place of the system's own functions.
+Features features() {
+  const auto all = [](std::initializer_list<const char*> names) {
+    return std::all_of(names.begin(), names.end(), [](const char* name) {
+      int value = 0;
+      std::size_t bytes = sizeof value;
+      return sysctlbyname(name, &value, &bytes, nullptr, 0) == 0 && value != 0;
+    });
+  };
+  Features found;
+  found.ssse3 = all({"hw.optional.supplementalsse3"});
+  // Every processor with AES has carry-less products, of which the system says nothing.
+  found.sse4 = found.ssse3 && all({"hw.optional.sse4_1", "hw.optional.sse4_2", "hw.optional.aes"});
+  found.avx2 = found.sse4 && all({"hw.optional.avx2_0", "hw.optional.fma", "hw.optional.bmi1", "hw.optional.bmi2"});
+  found.avx512 = found.avx2 && all({"hw.optional.avx512f", "hw.optional.avx512cd", "hw.optional.avx512dq",
+                                    "hw.optional.avx512bw", "hw.optional.avx512vl"});
+  return found;
+}
+#elif HWY_ARCH_X86 && (defined(__GNUC__) || defined(__clang__))
+/// By the compiler's own test.
+Features features() {
+  __builtin_cpu_init();
+  Features found;
+  found.ssse3 = __builtin_cpu_supports("ssse3");
+  found.sse4 = __builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("sse4.2") &&
+               __builtin_cpu_supports("pclmul") && __builtin_cpu_supports("aes");
+  // Highway compiles its AVX2 code with F16C too; every processor with AVX2 has it.
+  found.avx2 = found.sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+               __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  found.avx512 = found.avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
+                 __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+                 __builtin_cpu_supports("avx512vl");
+  return found;
+}
+#else
+/// Nothing beyond what every program of this build relies on anyway.
+Features features() {
+  return {};
+}
+#endif
+
 std::int64_t detected() {
   std::int64_t sets = HWY_SCALAR | HWY_EMU128 | HWY_STATIC_TARGET;
-#if HWY_ARCH_X86 && (defined(__GNUC__) || defined(__clang__))
-  __builtin_cpu_init();
-  if (__builtin_cpu_supports("ssse3")) {
-    sets |= HWY_SSSE3;
-  }
-  const bool sse4 = __builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("sse4.2") &&
-                    __builtin_cpu_supports("pclmul") && __builtin_cpu_supports("aes");
-  if (sse4) {
-    sets |= HWY_SSE4;
-  }
-  // Highway compiles its AVX2 code with F16C too; every processor with AVX2 has it.
-  const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-  if (avx2) {
-    sets |= HWY_AVX2;
-  }
-  if (avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
-    sets |= HWY_AVX3;
-  }
-#elif HWY_ARCH_ARM_A64
+  const Features has = features();
+  sets |= has.ssse3 ? HWY_SSSE3 : 0;
+  sets |= has.sse4 ? HWY_SSE4 : 0;
+  sets |= has.avx2 ? HWY_AVX2 : 0;
+  sets |= has.avx512 ? HWY_AVX3 : 0;
+#if HWY_ARCH_ARM_A64
   sets |= HWY_NEON;
 #endif
   return sets;
