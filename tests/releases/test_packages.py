@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What script/release packed: unpacked and run, also where /proc is not mounted; complete, and the same when packed again.
 
-script/release runs it: METAMER_OUT is the folder of packages, METAMER_TREE the install tree that they were made of.
+script/release runs it: METAMER_OUT is the folder of packages, METAMER_TREE the install tree that they were made of, METAMER_OFX
+the folder of the bundle for Linux that was packed alone.
 """
 
 import hashlib
@@ -20,10 +21,13 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 OUT = Path(os.environ["METAMER_OUT"])
 TREE = Path(os.environ["METAMER_TREE"])
+OFX = Path(os.environ["METAMER_OFX"])
 [CHANGES] = OUT.glob("metamer-*-changes.md")
 VERSION = CHANGES.name.split("-")[1]
 SECONDS = os.environ["SOURCE_DATE_EPOCH"]
 FOLDERS = {"linux": "Linux-x86-64", "windows": "Win64", "macos": "MacOS"}
+PLUGINS = {"linux": "/usr/OFX/Plugins", "windows": r"C:\Program Files\Common Files\OFX\Plugins", "macos": "/Library/OFX/Plugins"}
+HOSTS = ("Resolve", "Nuke", "Fusion", "Flame", "Baselight")
 RECIPE = "metamer: 1\nspace: ACEScct\ninput: {illuminant: D65}\noutput: {illuminant: HP1}\n"
 # A folder of nothing over /proc, seen by the command alone.
 WITHOUT_PROC = ["unshare", "--mount", "--map-root-user", "sh", "-c", 'mount -t tmpfs none /proc && exec "$@"', "sh"]
@@ -96,13 +100,21 @@ class Packages(unittest.TestCase):
 
     def test_bundles_come_with_notes_and_a_library(self):
         zips = {path.stem.rsplit("-", 1)[1]: path for path in OUT.glob(f"metamer-{VERSION}-ofx-*.zip")}
-        self.assertIn("linux", zips)
+        self.assertIn(set(zips), ({"linux"}, set(FOLDERS)))
         for system, path in zips.items():
             with self.subTest(system), zipfile.ZipFile(path) as archive:
                 self.assertIsNone(archive.testzip())
                 library = archive.getinfo(f"metamer.ofx.bundle/Contents/{FOLDERS[system]}/metamer.ofx")
                 self.assertEqual(library.external_attr >> 16, 0o100755)
-                self.assertIn(f"metamer {VERSION}", archive.read("INSTALL.txt").decode())
+                notes = archive.read("INSTALL.txt").decode()
+                for word in (f"metamer {VERSION}", PLUGINS[system], *HOSTS):
+                    self.assertIn(word, notes)
+                if system == "linux":
+                    versions = re.findall(r"Name: GLIBC_2\.(\d+)", self.succeed("readelf", "--version-info", "--wide",
+                                                                               OFX / "metamer.ofx.bundle/Contents/Linux-x86-64/metamer.ofx"))
+                    self.assertIn(f"Needs glibc 2.{max(map(int, versions))} or newer", notes)
+                elif system == "macos":
+                    self.assertIn("xattr -dr com.apple.quarantine /Library/OFX/Plugins/metamer.ofx.bundle", notes)
                 facts = plistlib.loads(archive.read("metamer.ofx.bundle/Contents/Info.plist"))
                 self.assertEqual(facts["CFBundleVersion"], VERSION)
                 self.assertEqual([info.filename for info in archive.infolist() if info.date_time != archive.infolist()[0].date_time], [])
@@ -114,6 +126,10 @@ class Packages(unittest.TestCase):
                               "opt/metamer/share/metamer/data/manifest.json"}, names)
         self.assertIn(f"Version: {VERSION}", self.succeed("dpkg-deb", "--info", deb))
 
+    def test_the_playground_lies_in_the_tree_too(self):
+        for page in OUT.glob(f"metamer-{VERSION}-playground.html"):
+            self.assertEqual((self.unpacked() / "share/metamer/playground/metamer.html").read_bytes(), page.read_bytes())
+
     def test_the_lists_fit_the_files(self):
         sums = dict(line.split()[::-1] for line in (OUT / "SHA256SUMS").read_text().splitlines())
         self.assertEqual(set(sums), {path.name for path in OUT.glob("metamer*")})
@@ -123,11 +139,11 @@ class Packages(unittest.TestCase):
         parts = json.loads((OUT / f"metamer-{VERSION}.cdx.json").read_text(encoding="utf-8"))
         self.assertEqual(parts["metadata"]["component"]["version"], VERSION)
         self.assertEqual(parts["metadata"]["timestamp"], time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(int(SECONDS))))
-        self.assertLessEqual({"opencolorio", "openimageio", "libeigen3-dev"}, {part["name"] for part in parts["components"]})
+        self.assertLessEqual({"opencolorio", "openimageio", "libeigen3-dev", "ziglang"}, {part["name"] for part in parts["components"]})
 
     def test_packed_again_it_is_the_same_byte_for_byte(self):
         again = self.folder / "again"
-        self.succeed(ROOT / "script/releases/pack", TREE, again, VERSION, SECONDS)
+        self.succeed(ROOT / "script/releases/pack", TREE, again, VERSION, SECONDS, OFX)
         names = sorted(path.name for path in again.iterdir())
         self.assertGreaterEqual(len(names), 7)
         self.assertEqual([name for name in names if (again / name).read_bytes() != (OUT / name).read_bytes()], [])
