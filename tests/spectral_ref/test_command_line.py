@@ -230,7 +230,7 @@ class CommandLine(unittest.TestCase):
         self.works("render", "scene.yaml", "-o", "a.exr", "--seconds", "0.3")
         checkpoint = self.folder / "a.exr.checkpoint"
         before = checkpoint.read_bytes()
-        limit = 4 * (self.folder / "a.exr").stat().st_size
+        limit = 2 * (self.folder / "a.exr").stat().st_size
         self.assertGreater(len(before), limit)
 
         def limited():

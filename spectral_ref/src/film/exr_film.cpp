@@ -60,12 +60,13 @@ OIIO::ImageSpec pictureSpec(const Film& film, const FilmNotes& notes, bool withR
 
 nlohmann::json stateJson(const Film& film, const FilmNotes& notes) {
   const FilmFormat& format = film.format();
-  nlohmann::json json = {{"version", 1},
+  nlohmann::json json = {{"version", 2},
                          {"bins", {format.bins.fromNm, format.bins.stepNm, format.bins.count}},
                          {"colourScale", format.colourScale},
                          {"space", format.space},
                          {"observer", format.observer},
                          {"blockLength", format.replicates.blockLength},
+                         {"unitExponent", format.unitExponent},
                          {"refused", film.refused},
                          {"ranges", film.ranges()},
                          {"notes", notes}};
@@ -78,12 +79,25 @@ nlohmann::json stateJson(const Film& film, const FilmNotes& notes) {
   return json;
 }
 
+/// A row's sums, as a file has them.
+void sumsOfRow(const Film& film, int y, std::vector<ExactSum>& row) {
+  const auto width = static_cast<std::size_t>(film.format().width);
+  row.clear();
+  for (std::size_t pixel = static_cast<std::size_t>(y) * width; pixel < (static_cast<std::size_t>(y) + 1) * width;
+       ++pixel) {
+    for (std::size_t channel = 0; channel < film.channels(); ++channel) {
+      row.push_back(film.sums().sum(pixel, channel));
+    }
+  }
+}
+
 /// Over all that a merge takes from a part: its description and its sums.
 std::string checkSumOf(const Film& film, const FilmNotes& notes) {
   CheckSum sum;
-  const auto width = static_cast<std::size_t>(film.format().width);
+  std::vector<ExactSum> row;
   for (int y = 0; y < film.format().height; ++y) {
-    sum.add(film.pixel(static_cast<std::size_t>(y) * width), width * film.channels() * sizeof(ExactSum));
+    sumsOfRow(film, y, row);
+    sum.add(row.data(), row.size() * sizeof(ExactSum));
   }
   const std::string description = stateJson(film, notes).dump();
   sum.add(description.data(), description.size());
@@ -121,7 +135,7 @@ void pixelValues(const Film& film, std::size_t pixel, bool withReplicates, float
   *out++ = static_cast<float>(luminance.variance);
   *out++ = static_cast<float>(film.samples());
   for (std::size_t g = 0; g < kReplicates && withReplicates; ++g) {
-    *out++ = static_cast<float>(film.pixel(pixel)[Film::kLuminance + g].value() * film.format().colourScale /
+    *out++ = static_cast<float>(film.sums().value(pixel, Film::kLuminance + g) * film.format().colourScale /
                                 static_cast<double>(film.replicateCounts()[g]));
   }
   for (int b = 0; b < film.format().bins.count; ++b) {
@@ -130,6 +144,14 @@ void pixelValues(const Film& film, std::size_t pixel, bool withReplicates, float
 }
 
 static_assert(sizeof(ExactSum) == kWordsASum * sizeof(std::uint32_t));
+
+/// Of sumsOfRow().
+void takeRow(const std::vector<ExactSum>& row, int y, Film& film) {
+  const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(film.format().width);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    film.sums().set(first + i / film.channels(), i % film.channels(), row[i]);
+  }
+}
 
 /// A film from the description in a file; none where it does not fit. @throws nlohmann::json::exception
 std::optional<std::pair<Film, FilmNotes>> filmFromJson(const nlohmann::json& json, const OIIO::ImageSpec& spec) {
@@ -144,6 +166,7 @@ std::optional<std::pair<Film, FilmNotes>> filmFromJson(const nlohmann::json& jso
     format.chromaticities = json.at("chromaticities").get<std::array<float, 8>>();
   }
   format.replicates.blockLength = std::max<std::uint64_t>(1, json.at("blockLength").get<std::uint64_t>());
+  format.unitExponent = json.at("unitExponent");
   for (int i = 0; i < 9; ++i) {
     format.colourFromResponse(i / 3, i % 3) = json.at("colourFromResponse").at(static_cast<std::size_t>(i));
   }
@@ -203,8 +226,10 @@ void writeExr(const Film& film, const FilmNotes& notes, const std::filesystem::p
     if (!output->open(path, specs.back(), OIIO::ImageOutput::AppendSubimage)) {
       throw failure(output->geterror());
     }
+    std::vector<ExactSum> sums;
     for (int y = 0; y < film.format().height; ++y) {
-      if (!output->write_scanline(y, 0, OIIO::TypeDesc::UINT32, film.pixel(static_cast<std::size_t>(y) * width))) {
+      sumsOfRow(film, y, sums);
+      if (!output->write_scanline(y, 0, OIIO::TypeDesc::UINT32, sums.data())) {
         throw failure(output->geterror());
       }
     }
@@ -238,11 +263,12 @@ std::pair<Film, FilmNotes> readExrState(const std::filesystem::path& file) {
         throw damaged;
       }
       auto& [film, notes] = *read;
-      const auto width = static_cast<std::size_t>(spec.width);
+      std::vector<ExactSum> row(static_cast<std::size_t>(spec.width) * film.channels());
       for (int y = 0; y < spec.height; ++y) {
-        if (!input->read_scanline(y, 0, OIIO::TypeDesc::UINT32, film.pixel(static_cast<std::size_t>(y) * width))) {
+        if (!input->read_scanline(y, 0, OIIO::TypeDesc::UINT32, row.data())) {
           throw InputError(where, "state", "", "is damaged, render it again: " + input->geterror());
         }
+        takeRow(row, y, film);
       }
       if (spec.get_string_attribute(kSumAttribute) != checkSumOf(film, notes)) {
         throw damaged;
@@ -257,16 +283,14 @@ std::pair<Film, FilmNotes> readExrState(const std::filesystem::path& file) {
 
 void mergeFilm(Film& film, const Film& other, const std::string& where) {
   if (!(film.format() == other.format())) {
-    throw InputError(where, "film", "", "differs from the first file's (size, bins, space or replicates)");
+    throw InputError(where, "film", "", "differs from the first file's (size, bins, space, replicates or unit)");
   }
   SampleRanges ranges = film.ranges();
   if (!uniteRanges(ranges, other.ranges())) {
     throw InputError(where, "samples", rangesText(other.ranges()),
                      "overlap those merged before (" + rangesText(film.ranges()) + "); leave a file out");
   }
-  for (std::size_t i = 0; i < film.sums().size(); ++i) {
-    film.sums()[i].add(other.sums()[i]);
-  }
+  film.sums().add(other.sums());
   film.refused += other.refused;
   film.setRanges(ranges);
 }

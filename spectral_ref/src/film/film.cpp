@@ -44,7 +44,11 @@ bool uniteRanges(SampleRanges& ranges, const SampleRanges& others) {
   return true;
 }
 
-FilmFormat FilmFormat::of(const FilmSettings& settings, const Replicates& replicates) {
+FilmFormat FilmFormat::of(const FilmSettings& settings, const Replicates& replicates, double brightness) {
+  // 19 bits are left for samples and for what is brighter than expected; beyond them sums take more memory.
+  constexpr int kBitsBelow = 44;
+  constexpr int kDimmest = -24;  // with it a film still holds millions of the largest terms
+  constexpr int kBrightest = 36;
   FilmFormat format;
   format.width = settings.width;
   format.height = settings.height;
@@ -54,6 +58,7 @@ FilmFormat FilmFormat::of(const FilmSettings& settings, const Replicates& replic
   format.chromaticities = settings.chromaticities;
   format.observer = settings.observer.name;
   format.replicates = replicates;
+  format.unitExponent = std::clamp(std::ilogb(brightness), kDimmest, kBrightest) - kBitsBelow;
   if (settings.photometric) {
     constexpr double kLumensPerWatt = 683.0;
     const Eigen::Vector3d sums = settings.observer.onDomain().colwise().sum().transpose();
@@ -72,7 +77,7 @@ double FilmFormat::binWidthNm(int bin) const {
 Film::Film(FilmFormat format)
     : m_format(std::move(format)),
       m_channels(kFirstBin + static_cast<std::size_t>(m_format.bins.count)),
-      m_sums(m_format.pixels() * m_channels) {}
+      m_sums(m_format.width, m_format.height, m_channels, m_format.unitExponent) {}
 
 void Film::setRanges(SampleRanges ranges) {
   m_ranges = std::move(ranges);
@@ -86,8 +91,8 @@ void Film::setRanges(SampleRanges ranges) {
 }
 
 Eigen::Vector3d Film::colour(std::size_t index) const {
-  const ExactSum* sums = pixel(index) + kColour;
-  const Eigen::Vector3d response(sums[0].value(), sums[1].value(), sums[2].value());
+  const Eigen::Vector3d response(m_sums.value(index, kColour), m_sums.value(index, kColour + 1),
+                                 m_sums.value(index, kColour + 2));
   return m_format.colourFromResponse * response * (m_format.colourScale / static_cast<double>(m_samples));
 }
 
@@ -95,9 +100,9 @@ Eigen::Vector3d Film::halfColour(std::size_t index, bool odd) const {
   Eigen::Vector3d response;
   const std::uint64_t oddCount = m_counts[1] + m_counts[3];
   const std::uint64_t count = odd ? oddCount : m_samples - oddCount;
-  for (int c = 0; c < 3; ++c) {
-    const double half = pixel(index)[kHalf + static_cast<std::size_t>(c)].value();
-    response[c] = odd ? half : pixel(index)[kColour + static_cast<std::size_t>(c)].value() - half;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double half = m_sums.value(index, kHalf + c);
+    response[static_cast<Eigen::Index>(c)] = odd ? half : m_sums.value(index, kColour + c) - half;
   }
   return m_format.colourFromResponse * response * (m_format.colourScale / static_cast<double>(count));
 }
@@ -105,13 +110,13 @@ Eigen::Vector3d Film::halfColour(std::size_t index, bool odd) const {
 Estimate Film::luminance(std::size_t index) const {
   std::array<double, kReplicates> sums{};
   for (std::size_t g = 0; g < kReplicates; ++g) {
-    sums[g] = pixel(index)[kLuminance + g].value() * m_format.colourScale;
+    sums[g] = m_sums.value(index, kLuminance + g) * m_format.colourScale;
   }
   return estimate(sums, m_counts);
 }
 
 double Film::radiance(std::size_t index, int bin) const {
-  return pixel(index)[kFirstBin + static_cast<std::size_t>(bin)].value() /
+  return m_sums.value(index, kFirstBin + static_cast<std::size_t>(bin)) /
          (static_cast<double>(m_samples) * m_format.binWidthNm(bin));
 }
 

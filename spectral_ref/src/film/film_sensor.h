@@ -36,18 +36,19 @@ class FilmSensor {
     for (int k = 0; k < C; ++k) {
       response += values[k] * m_curves[static_cast<std::size_t>(wavelengths.cell[static_cast<std::size_t>(k)])];
     }
-    ExactSum* sums = film.pixel(pixel);
-    for (int c = 0; c < 3; ++c) {
-      const ExactSum value = ExactSum::of(static_cast<double>(response[c]));
-      sums[Film::kColour + static_cast<std::size_t>(c)].add(value);
+    FilmSums& sums = film.sums();
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto value = static_cast<double>(response[static_cast<Eigen::Index>(c)]);
+      sums.add(pixel, Film::kColour + c, value);
       if ((replicate & 1U) != 0) {
-        sums[Film::kHalf + static_cast<std::size_t>(c)].add(value);
+        sums.add(pixel, Film::kHalf + c, value);
       }
     }
-    sums[Film::kLuminance + replicate].add(static_cast<double>(response[3]));
-    if (m_bins.count > 0) {
-      for (int k = 0; k < C; ++k) {
-        addToBin(sums + Film::kFirstBin, wavelengths.nm[k], values[k]);
+    sums.add(pixel, Film::kLuminance + replicate, static_cast<double>(response[3]));
+    for (int k = 0; k < C && m_bins.count > 0; ++k) {
+      const double place = (static_cast<double>(wavelengths.nm[k]) - m_bins.fromNm) / m_bins.stepNm + 0.5;
+      if (place >= 0.0 && place < static_cast<double>(m_bins.count)) {
+        sums.add(pixel, Film::kFirstBin + static_cast<std::size_t>(place), static_cast<double>(values[k]));
       }
     }
   }
@@ -62,13 +63,6 @@ class FilmSensor {
 
  private:
   static constexpr float kLargestSquare = 1e22F;
-
-  void addToBin(ExactSum* bins, float nm, float value) const {
-    const double place = (static_cast<double>(nm) - m_bins.fromNm) / m_bins.stepNm + 0.5;
-    if (place >= 0.0 && place < static_cast<double>(m_bins.count)) {
-      bins[static_cast<std::size_t>(place)].add(static_cast<double>(value));
-    }
-  }
 
   SpectralBins m_bins;
   /// Responses 0, 1, 2 and luminance by cell: a radiance of 1 gives a luminance of 1.

@@ -5,6 +5,7 @@
 
 #include "geometry/camera.h"
 #include "geometry/embree_scene.h"
+#include "lights/brightness.h"
 #include "lights/light_choice.h"
 #include "lights/light_reach.h"
 #include "lights/light_table.h"
@@ -30,7 +31,8 @@ struct PreparedScene {
                  ? std::make_unique<LightTree>(lights.bounds(description))
                  : nullptr),
         lightChoice(lights, isChosenByPlace ? tree.get() : nullptr),
-        camera(description.camera, description.film) {}
+        camera(description.camera, description.film),
+        brightness(brightnessOf(lights.bounds(description), description.camera)) {}
 
   const Scene& scene;
   EmbreeScene shapes;
@@ -42,6 +44,7 @@ struct PreparedScene {
   std::unique_ptr<const LightTree> tree;  ///< null where neither light choice nor resampling needs one
   LightChoice lightChoice;
   Camera camera;
+  double brightness;  ///< about what surfaces send, Y
 };
 
 }  // namespace metamer::spectral_ref

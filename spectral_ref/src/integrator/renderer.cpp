@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMostSamplesAPass = 4096;
 /// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
-constexpr std::uint64_t kStateVersion = 0x6d65746100000007U;
+constexpr std::uint64_t kStateVersion = 0x6d65746100000008U;
 
 std::vector<Tile> tilesOf(int width, int height) {
   std::vector<Tile> tiles;
@@ -56,7 +56,7 @@ struct Renderer::State {
       : options(renderOptions),
         prepared(scene, renderOptions),
         sensor(scene.film),
-        film(FilmFormat::of(scene.film, replicatesFor(options))),
+        film(FilmFormat::of(scene.film, replicatesFor(options), prepared.brightness)),
         tiles(tilesOf(scene.film.width, scene.film.height)),
         arena(threads > 0 ? std::min(threads, tbb::info::default_concurrency()) : tbb::task_arena::automatic),
         first(firstSample),
@@ -182,7 +182,11 @@ void Renderer::writeState(const ByteSink& sink) const {
   writer.put(m_state->first);
   writer.put(m_state->cursor);
   writer.put(m_state->film.refused);
-  writer.putAll(m_state->film.sums());
+  const FilmSums& sums = m_state->film.sums();
+  writer.putAll(sums.lows());
+  for (const std::vector<std::int64_t>& carries : sums.carries()) {
+    writer.putAll(carries);
+  }
   m_state->tracer->save(writer, m_state->cursor);
 }
 
@@ -212,8 +216,11 @@ void Renderer::restore(const ByteSource& state, const std::string& where) {
   }
   const auto cursor = reader.get<std::uint64_t>();
   const auto refused = reader.get<std::uint64_t>();
-  std::vector<ExactSum>& sums = m_state->film.sums();
-  reader.getAll(sums);
+  FilmSums& sums = m_state->film.sums();
+  reader.getAll(sums.lows());
+  for (std::vector<std::int64_t>& carries : sums.carries()) {
+    reader.getAllOrNone(carries, sums.sumsASegment());
+  }
   m_state->tracer->restore(reader, cursor);
   reader.finish();
   m_state->cursor = cursor;

@@ -55,6 +55,19 @@ class StateReader {
     }
     take(values.data(), values.size() * sizeof(T));
   }
+  /// Into a vector that has either that size or none.
+  template <typename T>
+  void getAllOrNone(std::vector<T>& values, std::size_t size) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto stored = get<std::size_t>();
+    if (stored != 0 && stored != size) {
+      throw damaged();
+    }
+    values.resize(stored);
+    if (stored > 0) {
+      take(values.data(), stored * sizeof(T));
+    }
+  }
   void finish() const {
     if (m_place != m_source.size) {
       throw damaged();

@@ -14,6 +14,7 @@
 namespace metamer::spectral_ref {
 
 inline constexpr int kTileSide = 16;
+static_assert(kTileSide % FilmSums::kSegment == 0, "a thread has a tile");
 
 struct Tile {
   int x0;

@@ -2,11 +2,14 @@
 // The same bits whatever the threads, the passes and the parts a render is cut into.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
 
 #include "metamer/spectral_ref/exr_film.h"
+#include "spectral/temporary_folder.h"
 #include "spectral_ref/scene_fixture.h"
 
 namespace metamer::spectral_ref {
@@ -105,6 +108,45 @@ TEST(LightChoiceTest, NeitherThreadsNorRangesChangeABit) {
     }
     EXPECT_EQ(merged.sums(), whole.sums());
   }
+}
+
+/// A lamp that fills the picture, far brighter than what it gives where the camera looks to: sums of its pixels outgrow
+/// what was expected of them.
+const Scene& lampCloseBy() {
+  static const Scene scene = sceneOf(
+      "metamer_scene: 1\n"
+      "film: {width: 37, height: 11, bins: {from: 400, to: 700, step: 100}}\n"
+      "camera: {origin: [0, 0, 0.1], target: [0, 0, -1000], up: [0, 1, 0], fov_x: 5}\n"
+      "shapes:\n  - sphere: {center: [0, 0, 0], radius: 0.01}\n    emission: 1\n");
+  return scene;
+}
+
+bool hasCarries(const Film& film) {
+  const auto& carries = film.sums().carries();
+  return std::any_of(carries.begin(), carries.end(), [](const auto& segment) { return !segment.empty(); });
+}
+
+TEST(BrightFilmTest, SumsBeyondTheirWordsMergeAndGoOnBitByBit) {
+  const Film whole = rendered(lampCloseBy(), 30, {}, 1);
+  ASSERT_TRUE(hasCarries(whole));
+  EXPECT_FALSE(hasCarries(rendered(scene(), 30)));  // as pictures mostly are
+  for (std::size_t pixel = 0; pixel < whole.format().pixels(); ++pixel) {
+    ASSERT_NEAR(whole.luminance(pixel).mean, 1.0, 0.05);  // 120 wavelengths: noise of one in a hundred
+  }
+  EXPECT_EQ(rendered(lampCloseBy(), 30, {}, 3).sums(), whole.sums());
+  Film merged(whole.format());
+  for (const auto& [begin, end] : SampleRanges{{23, 30}, {0, 23}}) {
+    Renderer renderer(lampCloseBy(), {}, begin);
+    renderer.render(end, kForever);
+    // By way of a file and of a checkpoint.
+    const std::filesystem::path file = scratchFile("bright.exr");
+    writeExr(renderer.film(), {}, file, true, false);
+    mergeFilm(merged, readExrState(file).first, "part");
+    Renderer again(lampCloseBy(), {}, begin);
+    restoreFrom(again, stateOf(renderer));
+    EXPECT_EQ(again.film().sums(), renderer.film().sums());
+  }
+  EXPECT_EQ(merged.sums(), whole.sums());
 }
 
 TEST(LightChoiceTest, ByPlaceIsQuieterAndAFewLightsAreChosenByPower) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "metamer/spectral_ref/exact_sum.h"
+#include "metamer/spectral_ref/film_sums.h"
 #include "metamer/spectral_ref/scene.h"
 
 namespace metamer::spectral_ref {
@@ -51,9 +51,11 @@ struct FilmFormat {
   std::optional<std::array<float, 8>> chromaticities;  ///< as FilmSettings has them
   std::string observer;
   Replicates replicates;
+  int unitExponent = 0;  ///< sums are whole numbers of 2^unitExponent
 
   /// From a scene's settings.
-  static FilmFormat of(const FilmSettings& settings, const Replicates& replicates);
+  /// @param brightness  about what surfaces send of a scene's light, Y: sums are exact to 2^-44 of it. Above 0
+  static FilmFormat of(const FilmSettings& settings, const Replicates& replicates, double brightness = 1);
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   /// Width of a bin within the domain, nm.
   double binWidthNm(int bin) const;
@@ -78,10 +80,8 @@ class Film {
   static constexpr std::size_t kLuminance = 6;                        ///< Y by replicate
   static constexpr std::size_t kFirstBin = kLuminance + kReplicates;  ///< radiance times nm
   std::size_t channels() const { return m_channels; }
-  ExactSum* pixel(std::size_t index) { return m_sums.data() + index * m_channels; }
-  const ExactSum* pixel(std::size_t index) const { return m_sums.data() + index * m_channels; }
-  std::vector<ExactSum>& sums() { return m_sums; }
-  const std::vector<ExactSum>& sums() const { return m_sums; }
+  FilmSums& sums() { return m_sums; }
+  const FilmSums& sums() const { return m_sums; }
 
   const FilmFormat& format() const { return m_format; }
   const SampleRanges& ranges() const { return m_ranges; }
@@ -109,7 +109,7 @@ class Film {
  private:
   FilmFormat m_format;
   std::size_t m_channels;
-  std::vector<ExactSum> m_sums;
+  FilmSums m_sums;
   SampleRanges m_ranges;
   std::uint64_t m_samples = 0;
   std::array<std::uint64_t, kReplicates> m_counts{};
