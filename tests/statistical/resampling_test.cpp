@@ -176,6 +176,29 @@ TEST_F(ResamplingTest, APointDrawsLightsAsOftenAsItStates) {
   }
 }
 
+TEST_F(ResamplingTest, PointsTogetherDrawWhatEachDrawsAlone) {
+  const LightChoice byPlace(lights, &tree);
+  const LightChoice byPower(lights, nullptr);
+  for (int i = 0; i < 2000; ++i) {
+    std::array<LitPoint, LightChoice::kMostTogether> points;
+    std::array<std::uint32_t, LightChoice::kMostTogether> numbers{};
+    std::array<LightChoice::Choice, LightChoice::kMostTogether> drawn;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      points[k].place = Vec3{6.0F * next() - 3.0F, 6.0F * next() - 3.0F, 2.0F * next()};
+      points[k].normal = Vec3{next() - 0.5F, next() - 0.5F, next() - 0.5F}.normalized();
+      numbers[k] = bits();
+    }
+    for (const LightChoice* choice : {&byPlace, &byPower}) {
+      choice->choose(points, numbers, drawn);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const LightChoice::Choice alone = choice->choose(points[k], numbers[k]);
+        ASSERT_EQ(drawn[k].entry, alone.entry);
+        ASSERT_EQ(drawn[k].probability, alone.probability);
+      }
+    }
+  }
+}
+
 TEST_F(ResamplingTest, BranchesLeadToEveryLightThatAPointSees) {
   const LightBranches branches(tree);
   int seenFromBehind = 0;
@@ -287,7 +310,10 @@ TEST(LightTreeTest, LightsThatShareALeafAreToldApartByIntensity) {
 TEST(LightTreeTest, LightsThatAllShineNothing) {
   std::vector<LightBounds> dark(3);
   const LightTree tree(dark);
-  EXPECT_EQ(LightBranches(tree).descend({}, 0.5).probability, 0.0F);
+  const LitPoint point;
+  LightBranches::Leaf leaf{0, 0, 1.0F, 0.5};
+  LightBranches(tree).descend({&point, 1}, {&leaf, 1});
+  EXPECT_EQ(leaf.probability, 0.0F);
   LightCuts cuts(tree, 1);
   cuts.build(0, {{Vec3::Zero(), Vec3::UnitZ()}});
   for (const std::uint32_t number : {0U, 1U << 31U, 0xffffffffU}) {

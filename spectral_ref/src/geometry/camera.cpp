@@ -2,7 +2,11 @@
 #include "geometry/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+
+#include "metamer/spectral/vector_lanes.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -30,6 +34,24 @@ double normalQuantile(double p) {
   return x;
 }
 
+/// The directions corner + right x + down y.
+METAMER_VECTOR_LANES void directionsThrough(const std::array<Vec3, 3>& film, const EachRay<float>& x,
+                                            const EachRay<float>& y, EachVec3& directions) {
+  const auto& [corner, right, down] = film;
+  const float cx = corner.x(), cy = corner.y(), cz = corner.z();
+  const float rx = right.x(), ry = right.y(), rz = right.z();
+  const float dx = down.x(), dy = down.y(), dz = down.z();
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    const float a = cx + rx * x[i] + dx * y[i];
+    const float b = cy + ry * x[i] + dy * y[i];
+    const float c = cz + rz * x[i] + dz * y[i];
+    const float inverse = 1.0F / std::sqrt(a * a + b * b + c * c);
+    directions.x[i] = a * inverse;
+    directions.y[i] = b * inverse;
+    directions.z[i] = c * inverse;
+  }
+}
+
 }  // namespace
 
 Camera::Camera(const CameraSettings& settings, const FilmSettings& film)
@@ -48,16 +70,22 @@ Camera::Camera(const CameraSettings& settings, const FilmSettings& film)
   m_corner = (forward - right * halfWidth - down * (0.5 * film.height * pixel)).cast<float>();
 }
 
-Eigen::Vector2f Camera::filtered(int x, int y, const Eigen::Vector2f& square) const {
-  Eigen::Vector2f offset = (square.array() - 0.5F) * (2.0F * m_radius);
-  if (m_filter == FilmSettings::Filter::Gaussian) {
-    for (int i = 0; i < 2; ++i) {
-      const double tail = static_cast<double>(m_tail);
-      const double p = tail + (1.0 - 2.0 * tail) * static_cast<double>(square[i]);
-      offset[i] = std::clamp(static_cast<float>(normalQuantile(p)) * m_sigma, -m_radius, m_radius);
-    }
+void Camera::rays(const EachRay<float>& x, const EachRay<float>& y, RayGroup& rays) const {
+  directionsThrough({m_corner, m_right, m_down}, x, y, rays.direction);
+  rays.origin.x.fill(m_origin.x());
+  rays.origin.y.fill(m_origin.y());
+  rays.origin.z.fill(m_origin.z());
+  rays.most.fill(std::numeric_limits<float>::infinity());
+}
+
+Eigen::Vector2f Camera::gaussian(const Eigen::Vector2f& square) const {
+  Eigen::Vector2f offset;
+  for (int i = 0; i < 2; ++i) {
+    const double tail = static_cast<double>(m_tail);
+    const double p = tail + (1.0 - 2.0 * tail) * static_cast<double>(square[i]);
+    offset[i] = std::clamp(static_cast<float>(normalQuantile(p)) * m_sigma, -m_radius, m_radius);
   }
-  return offset + Eigen::Vector2f(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+  return offset;
 }
 
 }  // namespace metamer::spectral_ref

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "geometry/geometry.h"
+#include "geometry/ray_group.h"
 #include "metamer/spectral_ref/scene.h"
 
 namespace metamer::spectral_ref {
@@ -18,10 +18,19 @@ class Camera {
     result.direction = (m_corner + m_right * x + m_down * y).normalized();
     return result;
   }
+  /// Those through several places at once.
+  void rays(const EachRay<float>& x, const EachRay<float>& y, RayGroup& rays) const;
   /// A place on the film about a pixel's centre, drawn by the pixel filter.
-  Eigen::Vector2f filtered(int x, int y, const Eigen::Vector2f& square) const;
+  Eigen::Vector2f filtered(int x, int y, const Eigen::Vector2f& square) const {
+    const Eigen::Vector2f pixel(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
+    return pixel + (m_filter == FilmSettings::Filter::Gaussian
+                        ? gaussian(square)
+                        : Eigen::Vector2f((square.array() - 0.5F) * (2.0F * m_radius)));
+  }
 
  private:
+  Eigen::Vector2f gaussian(const Eigen::Vector2f& square) const;
+
   Vec3 m_origin;
   Vec3 m_corner;
   Vec3 m_right;

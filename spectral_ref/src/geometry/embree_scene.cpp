@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 #include <limits>
@@ -47,7 +48,7 @@ RTCRay embreeRay(const Ray& ray) {
   result.org_x = ray.origin.x();
   result.org_y = ray.origin.y();
   result.org_z = ray.origin.z();
-  result.tnear = ray.least;
+  result.tnear = 0.0F;
   result.dir_x = ray.direction.x();
   result.dir_y = ray.direction.y();
   result.dir_z = ray.direction.z();
@@ -60,13 +61,17 @@ RTCRay embreeRay(const Ray& ray) {
 }
 
 /// Embree's functions for rays take their context before the rays in its third release, and after them since.
+/// @param course  a hint, which the third release alone takes this way
 template <typename Function, typename Rays, typename... First>
-void ask(const Function& function, Rays& rays, First... first) {
+void ask(const Function& function, [[maybe_unused]] Course course, Rays& rays, First... first) {
 #ifdef METAMER_EMBREE_4
   function(first..., &rays, nullptr);
 #else
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
+  if (course == Course::Alike) {
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
   function(first..., &context, &rays);
 #endif
 }
@@ -75,22 +80,33 @@ bool isAlone(RayMask active) {
   return (active & (active - 1U)) == 0;
 }
 
-/// Rays side by side, as Embree has them; in place of those that do not count stands one that does.
-void pack(const RayGroup& rays, RayMask active, RTCRay8& packed, std::array<int, kRaysTogether>& valid) {
+/// Rays as Embree has them; in place of those that do not count stands one that does.
+void pack(const RayGroup& rays, RayMask active, RTCRay8& packed, EachRay<int>& valid) {
   const auto first = static_cast<std::size_t>(std::countr_zero(active));
   for (std::size_t i = 0; i < kRaysTogether; ++i) {
-    const bool isActive = ((active >> i) & 1U) != 0;
-    valid[i] = isActive ? -1 : 0;
-    const Ray& ray = rays[isActive ? i : first];
-    packed.org_x[i] = ray.origin.x();
-    packed.org_y[i] = ray.origin.y();
-    packed.org_z[i] = ray.origin.z();
-    packed.tnear[i] = ray.least;
-    packed.dir_x[i] = ray.direction.x();
-    packed.dir_y[i] = ray.direction.y();
-    packed.dir_z[i] = ray.direction.z();
+    valid[i] = -static_cast<int>((active >> i) & 1U);
+  }
+  const bool areAll = active == (RayMask{1} << kRaysTogether) - 1U;
+  const auto fill = [&](float* to, const EachRay<float>& from) {
+    if (areAll) {
+      std::copy(from.begin(), from.end(), to);
+      return;
+    }
+    const float instead = from[first];
+    for (std::size_t i = 0; i < kRaysTogether; ++i) {
+      to[i] = valid[i] != 0 ? from[i] : instead;
+    }
+  };
+  fill(packed.org_x, rays.origin.x);
+  fill(packed.org_y, rays.origin.y);
+  fill(packed.org_z, rays.origin.z);
+  fill(packed.dir_x, rays.direction.x);
+  fill(packed.dir_y, rays.direction.y);
+  fill(packed.dir_z, rays.direction.z);
+  fill(packed.tfar, rays.most);
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    packed.tnear[i] = 0.0F;
     packed.time[i] = 0.0F;
-    packed.tfar[i] = ray.most;
     packed.mask[i] = 0xffffffffU;
     packed.id[i] = 0;
     packed.flags[i] = 0;
@@ -210,7 +226,7 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
   query.ray = embreeRay(ray);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  ask(rtcIntersect1, query, m_handles->scene.get());
+  ask(rtcIntersect1, Course::Any, query, m_handles->scene.get());
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return false;
   }
@@ -221,51 +237,57 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
   return true;
 }
 
-RayMask EmbreeScene::intersect(const RayGroup& rays, RayMask active, HitGroup& hits) const {
+RayMask EmbreeScene::intersect(const RayGroup& rays, RayMask active, HitGroup& hits, Course course) const {
   assert(active != 0);
   if (isAlone(active)) {
     const auto alone = static_cast<std::size_t>(std::countr_zero(active));
-    return intersect(rays[alone], hits[alone]) ? active : 0;
+    Hit hit;
+    if (!intersect(rays[alone], hit)) {
+      return 0;
+    }
+    hits.set(alone, hit);
+    return active;
   }
   RTCRayHit8 query;
-  alignas(32) std::array<int, kRaysTogether> valid;
+  alignas(32) EachRay<int> valid;
   pack(rays, active, query.ray, valid);
   for (std::size_t i = 0; i < kRaysTogether; ++i) {
     query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  ask(rtcIntersect8, query, valid.data(), m_handles->scene.get());
+  ask(rtcIntersect8, course, query, valid.data(), m_handles->scene.get());
   RayMask found = 0;
   forEachRay(active, [&](std::size_t i) {
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
       return;
     }
     found |= RayMask{1} << i;
-    Hit& hit = hits[i];
+    Hit hit;
     hit.distance = query.ray.tfar[i];
     hit.u = query.hit.u[i];
     hit.v = query.hit.v[i];
     describe(rays[i], query.hit.geomID[i], query.hit.primID[i],
              {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]}, hit);
+    hits.set(i, hit);
   });
   return found;
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {
   RTCRay query = embreeRay(ray);
-  ask(rtcOccluded1, query, m_handles->scene.get());
+  ask(rtcOccluded1, Course::Any, query, m_handles->scene.get());
   return query.tfar < 0.0F;
 }
 
-RayMask EmbreeScene::occluded(const RayGroup& rays, RayMask active) const {
+RayMask EmbreeScene::occluded(const RayGroup& rays, RayMask active, Course course) const {
   assert(active != 0);
   if (isAlone(active)) {
     return occluded(rays[static_cast<std::size_t>(std::countr_zero(active))]) ? active : 0;
   }
   RTCRay8 query;
-  alignas(32) std::array<int, kRaysTogether> valid;
+  alignas(32) EachRay<int> valid;
   pack(rays, active, query, valid);
-  ask(rtcOccluded8, query, valid.data(), m_handles->scene.get());
+  ask(rtcOccluded8, course, query, valid.data(), m_handles->scene.get());
   RayMask found = 0;
   forEachRay(active, [&](std::size_t i) { found |= query.tfar[i] < 0.0F ? RayMask{1} << i : 0U; });
   return found;

@@ -1,47 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "geometry/geometry.h"
+#include "geometry/ray_group.h"
 #include "metamer/spectral_ref/scene.h"
 
 namespace metamer::spectral_ref {
 
-/// No emitter, no picture, no hit.
-inline constexpr std::uint32_t kNone = 0xffffffffU;
-
-/// What lies where a ray ends.
-struct Hit {
-  Vec3 position;
-  Vec3 normal;  ///< unit, the side that reflects and emits
-  float distance = 0;
-  float u = 0;  ///< along a rectangle, 0 ... 1
-  float v = 0;
-  std::uint32_t material = 0;
-  std::uint32_t emitter = kNone;  ///< shape's number among emitting shapes (EmitterShape)
-  std::uint32_t primitive = 0;    ///< triangle within a mesh
+/// Where the rays of a group go.
+enum class Course {
+  Alike,  ///< from about the same place, or to it
+  Any,
 };
-
-/// Rays that are traced at once.
-inline constexpr std::size_t kRaysTogether = 8;
-using RayGroup = std::array<Ray, kRaysTogether>;
-using HitGroup = std::array<Hit, kRaysTogether>;
-/// Bit i stands for ray i of a group.
-using RayMask = std::uint32_t;
-
-/// Calls `work` with the number of each ray of a mask, from the first.
-template <typename Work>
-void forEachRay(RayMask mask, const Work& work) {
-  for (; mask != 0; mask &= mask - 1U) {
-    work(static_cast<std::size_t>(std::countr_zero(mask)));
-  }
-}
 
 /// The shapes in Embree's hierarchy. The only file that knows Embree is its source.
 class EmbreeScene {
@@ -60,9 +34,10 @@ class EmbreeScene {
   /// must be made up the same way however a render is cut into parts.
   /// @param active  rays that count, at least one
   /// @return  those that hit something
-  RayMask intersect(const RayGroup& rays, RayMask active, HitGroup& hits) const;
+  /// @param course  changes no more than the time and those bits
+  RayMask intersect(const RayGroup& rays, RayMask active, HitGroup& hits, Course course = Course::Any) const;
   /// @return  those that something lies in the way of
-  RayMask occluded(const RayGroup& rays, RayMask active) const;
+  RayMask occluded(const RayGroup& rays, RayMask active, Course course = Course::Any) const;
 
   /// Emitting shapes number rectangles first, then spheres, then meshes, each in the scene's order.
   std::uint32_t emitterOfRectangle(std::size_t index) const { return m_rectangles[index].emitter; }

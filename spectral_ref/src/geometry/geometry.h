@@ -4,6 +4,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
+
+#include "metamer/spectral/vector_lanes.h"
 
 namespace metamer::spectral_ref {
 
@@ -30,17 +33,28 @@ struct Frame {
   Vec3 toWorld(const Vec3& v) const { return s * v.x() + t * v.y() + n * v.z(); }
 };
 
-/// A point of the unit disc from the unit square, areas kept in proportion (Shirley and Chiu 1997).
-inline Eigen::Vector2f squareToDisc(float u, float v) {
+/// A point of the unit disc from the unit square, areas kept in proportion (Shirley and Chiu 1997). In steps that all
+/// take: the angle from the nearer axis is at most an eighth of a turn, and there few terms of the series do.
+METAMER_ALWAYS_INLINE void squareToDisc(float u, float v, float& x, float& y) {
   const float a = 2.0F * u - 1.0F;
   const float b = 2.0F * v - 1.0F;
-  if (a == 0.0F && b == 0.0F) {
-    return {0.0F, 0.0F};
-  }
-  const bool wide = std::abs(a) > std::abs(b);
-  const float r = wide ? a : b;
-  const float phi = wide ? 0.25F * kPi * (b / a) : 0.5F * kPi - 0.25F * kPi * (a / b);
-  return {r * std::cos(phi), r * std::sin(phi)};
+  const bool isWide = std::abs(a) > std::abs(b);
+  const float radius = isWide ? a : b;
+  const float other = isWide ? b : a;
+  const float angle = 0.25F * kPi * (other / (radius == 0.0F ? 1.0F : radius));
+  const float s = angle * angle;
+  const float cosine = 1.0F + s * (-0.5F + s * (1.0F / 24.0F + s * (-1.0F / 720.0F + s * (1.0F / 40320.0F))));
+  const float sine =
+      angle * (1.0F + s * (-1.0F / 6.0F + s * (1.0F / 120.0F + s * (-1.0F / 5040.0F + s * (1.0F / 362880.0F)))));
+  const float along = radius * cosine;
+  const float across = radius * sine;
+  x = isWide ? along : across;
+  y = isWide ? across : along;
+}
+inline Eigen::Vector2f squareToDisc(float u, float v) {
+  Eigen::Vector2f point;
+  squareToDisc(u, v, point.x(), point.y());
+  return point;
 }
 
 /// A direction about +z with density cos / pi.
@@ -60,15 +74,19 @@ inline Vec3 squareToCone(float u, float v, float oneMinusCos) {
 struct Ray {
   Vec3 origin;
   Vec3 direction;  ///< unit
-  float least = 0.0F;
   float most = std::numeric_limits<float>::infinity();
 };
 
-/// A point a little off a surface, on the side that `direction` leaves to: float positions carry an error in
-/// proportion to their size.
-inline Vec3 offPoint(const Vec3& point, const Vec3& normal, const Vec3& direction) {
+/// How far off a surface rays begin: float positions carry an error in proportion to their size.
+/// @param size  the largest of a point's coordinates, none negative
+METAMER_ALWAYS_INLINE float offDistance(float size) {
   constexpr float kRelative = 1e-5F;
-  const float distance = kRelative * (1.0F + point.cwiseAbs().maxCoeff());
+  return kRelative * (1.0F + size);
+}
+
+/// A point a little off a surface, on the side that `direction` leaves to.
+inline Vec3 offPoint(const Vec3& point, const Vec3& normal, const Vec3& direction) {
+  const float distance = offDistance(point.cwiseAbs().maxCoeff());
   return point + normal * std::copysign(distance, normal.dot(direction));
 }
 

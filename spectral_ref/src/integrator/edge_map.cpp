@@ -31,17 +31,22 @@ EdgeMap::EdgeMap(const PreparedScene& prepared)
                static_cast<std::size_t>(prepared.scene.film.height)) {}
 
 void EdgeMap::look(int x, int y) {
-  RayGroup rays;
+  EachRay<float> across{};
+  EachRay<float> down{};
   for (std::size_t i = 0; i < kRaysTogether; ++i) {
     const Eigen::Vector2f place = m_prepared.camera.filtered(x, y, {kPlaces[i][0], kPlaces[i][1]});
-    rays[i] = m_prepared.camera.ray(place.x(), place.y());
+    across[i] = place.x();
+    down[i] = place.y();
   }
+  RayGroup rays;
+  m_prepared.camera.rays(across, down, rays);
   constexpr RayMask kAll = (RayMask{1} << kRaysTogether) - 1U;
   HitGroup hits;
-  const RayMask found = m_prepared.shapes.intersect(rays, kAll, hits);
+  const RayMask found = m_prepared.shapes.intersect(rays, kAll, hits, Course::Alike);
   bool isEdge = found != 0 && found != kAll;
+  const Hit first = hits[0];
   for (std::size_t i = 1; i < kRaysTogether && found == kAll && !isEdge; ++i) {
-    isEdge = !areAlike(m_prepared.lights, hits[0], hits[i]);
+    isEdge = !areAlike(m_prepared.lights, first, hits[i]);
   }
   m_isEdge[static_cast<std::size_t>(y) * static_cast<std::size_t>(m_prepared.scene.film.width) +
            static_cast<std::size_t>(x)] = isEdge ? 1 : 0;

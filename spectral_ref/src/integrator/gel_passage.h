@@ -68,9 +68,11 @@ bool gelsTransmit(const PreparedScene& prepared, Ray ray, std::uint32_t emitter,
   return true;
 }
 
-/// The ray from a surface to a point on a light, short of it by more than float error.
+/// Of a ray to a light, of the way: short of it by more than float error.
+inline constexpr float kShortOfLight = 1.0F - 1e-4F;
+
+/// The ray from a surface to a point on a light.
 inline Ray shadowRay(const Hit& hit, const LightSample& light) {
-  constexpr float kShort = 1.0F - 1e-4F;
   Ray ray;
   ray.origin = offPoint(hit.position, hit.normal, light.direction);
   ray.direction = light.direction;
@@ -80,7 +82,7 @@ inline Ray shadowRay(const Hit& hit, const LightSample& light) {
     const Vec3 towards = hit.position + light.direction * light.distance - ray.origin;
     ray.most = towards.norm();
     ray.direction = towards / ray.most;
-    ray.most *= kShort;
+    ray.most *= kShortOfLight;
   }
   return ray;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "integrator/diffuse_surfaces.h"
 #include "integrator/gel_passage.h"
 #include "integrator/path_random.h"
 #include "integrator/path_state.h"
@@ -28,42 +29,45 @@ struct NoResampling {
 template <int C, bool kDispersive>
 class PathIntegrator {
  public:
-  using Radiances = std::array<Lanes<C>, kRaysTogether>;
+  using Group = PathGroup<C, kDispersive>;
 
   static_assert(kRaysTogether <= Sampler::kMostTogether);
 
   explicit PathIntegrator(const PreparedScene& prepared)
-      : m_prepared(prepared), m_settings(prepared.scene.integrator), m_hasGels(prepared.materials.hasGels()) {}
+      : m_prepared(prepared),
+        m_settings(prepared.scene.integrator),
+        m_hasGels(prepared.materials.hasGels()),
+        m_diffuse(prepared) {}
 
+  /// Follows paths; their radiance is in the group afterwards.
   /// @param resampling  of each path: gives the direct light of its first surface, where that is diffuse
   template <typename Resampling>
-  void radiance(PathStarts<C>& starts, const std::array<Resampling, kRaysTogether>& resampling,
-                Radiances& radiance) const {
-    Group group;
+  void follow(PathStarts<C>& starts, const std::array<Resampling, kRaysTogether>& resampling, Group& group) const {
+    group.rays = starts.rays;
     for (std::size_t i = 0; i < starts.count; ++i) {
-      group.rays[i] = starts.paths[i].ray;
-      group.paths[i].lanes = starts.paths[i].wavelengths;
+      group.paths[i].begin(starts.paths[i].wavelengths);
     }
     RayMask alive = (RayMask{1} << starts.count) - 1U;
     for (int edge = 1; alive != 0; ++edge) {
-      const RayMask found = nextSurfaces(group, alive);
+      const RayMask found = nextSurfaces(group, alive, edge == 1 ? Course::Alike : Course::Any);
       forEachRay(alive & ~found & ~group.absorbed,
                  [&](std::size_t i) { addEnvironment(group.rays[i], group.paths[i], resampling[i]); });
-      forEachRay(found,
-                 [&](std::size_t i) { addEmission(group.rays[i], group.hits[i], group.paths[i], resampling[i]); });
+      forEachRay(found, [&](std::size_t i) {
+        if (group.hits.emitter[i] != kNone) {
+          addEmission(group.rays[i], group.hits[i], group.paths[i], resampling[i]);
+        }
+      });
       if (edge >= m_settings.maxDepth) {
         break;
       }
       toVertex(edge - 1, found, starts);
-      alive = 0;
       group.lit = 0;
-      forEachRay(found, [&](std::size_t i) {
+      const RayMask plain = Resampling::kResamples && edge == 1 ? RayMask{0} : m_diffuse.which(group, found);
+      alive = m_diffuse.scatter(edge, plain, group, starts);
+      forEachRay(found & ~plain, [&](std::size_t i) {
         alive |= surface(edge, i, group, starts.paths[i], resampling[i]) ? RayMask{1} << i : 0U;
       });
-      addDirect(group);
-    }
-    for (std::size_t i = 0; i < starts.count; ++i) {
-      radiance[i] = group.paths[i].radiance;
+      addDirect(group, edge == 1 ? Course::Alike : Course::Any);
     }
   }
 
@@ -83,15 +87,6 @@ class PathIntegrator {
  private:
   using Path = spectral_ref::Path<C, kDispersive>;
 
-  struct Group {
-    std::array<Path, kRaysTogether> paths;
-    RayGroup rays;  ///< the paths' next edges
-    HitGroup hits;
-    RayGroup shadowRays;   ///< to where a path's direct light comes from
-    RayMask lit = 0;       ///< paths that have such light
-    RayMask absorbed = 0;  ///< paths that a gel has ended
-  };
-
   static void toVertex(int number, RayMask paths, PathStarts<C>& starts) {
     std::array<PathRandom*, kRaysTogether> randoms{};
     std::size_t count = 0;
@@ -100,28 +95,34 @@ class PathIntegrator {
   }
 
   /// Follows paths to the next surface that scatters. @return  those that come to one
-  RayMask nextSurfaces(Group& group, RayMask alive) const {
+  RayMask nextSurfaces(Group& group, RayMask alive, Course course) const {
     group.absorbed = 0;
     if (!m_hasGels) {
-      return m_prepared.shapes.intersect(group.rays, alive, group.hits);
+      return m_prepared.shapes.intersect(group.rays, alive, group.hits, course);
     }
     RayMask found = 0;
     forEachRay(alive, [&](std::size_t i) {
       Path& path = group.paths[i];
-      const Passage passage = throughGels(m_prepared, group.rays[i], group.hits[i], path.throughput, path.lanes);
-      found |= passage == Passage::Hit ? RayMask{1} << i : 0U;
+      Ray ray = group.rays[i];
+      Hit hit;
+      const Passage passage = throughGels(m_prepared, ray, hit, path.throughput, path.lanes);
+      group.rays.set(i, ray);
+      if (passage == Passage::Hit) {
+        group.hits.set(i, hit);
+        found |= RayMask{1} << i;
+      }
       group.absorbed |= passage == Passage::Absorbed ? RayMask{1} << i : 0U;
     });
     return found;
   }
 
   /// Adds the direct light that nothing lies in the way of.
-  void addDirect(Group& group) const {
+  void addDirect(Group& group, Course course) const {
     if (group.lit == 0) {
       return;
     }
     if (!m_hasGels) {
-      const RayMask hidden = m_prepared.shapes.occluded(group.shadowRays, group.lit);
+      const RayMask hidden = m_prepared.shapes.occluded(group.shadowRays, group.lit, course);
       forEachRay(group.lit & ~hidden, [&](std::size_t i) { group.paths[i].radiance += group.paths[i].direct; });
       return;
     }
@@ -137,7 +138,7 @@ class PathIntegrator {
   /// @return  false where the path ends
   template <typename Resampling>
   bool surface(int edge, std::size_t i, Group& group, const PathStart<C>& start, const Resampling& resampling) const {
-    const Hit& hit = group.hits[i];
+    const Hit hit = group.hits[i];
     Path& path = group.paths[i];
     const Frame frame(hit.normal);
     const Vec3 out = frame.toLocal(-group.rays[i].direction);
@@ -151,7 +152,6 @@ class PathIntegrator {
                                                                        bsdf.diffuseReflectance(), path.lanes));
     }
     bool isResampled = false;
-    // The last direction could but find a light: far from all lights next-event estimation is left to do that alone.
     bool isLast = false;
     if constexpr (Resampling::kResamples) {
       path.resampled = nullptr;
@@ -163,12 +163,15 @@ class PathIntegrator {
       }
     }
     if (!isResampled && !bsdf.isDelta() && !m_prepared.lights.empty()) {
-      isLast = edge + 1 == m_settings.maxDepth && m_prepared.materials.isDiffuse(hit.material) &&
-               !m_prepared.lightReach.isNear(hit.position);
+      isLast = m_prepared.materials.isDiffuse(hit.material) && isLastVertex(m_prepared, edge, hit.position);
       addDirectLight(i, group, frame, out, bsdf, random, !isLast);
     }
-    return !isLast && scatter(hit, frame, out, bsdf, random, path, group.rays[i]) &&
-           (edge + 1 < m_settings.russianRoulette || survives(random.roulette(), path));
+    Ray next;
+    if (isLast || !scatter(hit, frame, out, bsdf, random, path, next)) {
+      return false;
+    }
+    group.rays.set(i, next);
+    return survives(m_settings, edge, random, path);
   }
 
   /// Weight of light found by following the BSDF, where next-event estimation finds it with density p_light:
@@ -189,7 +192,7 @@ class PathIntegrator {
 
   template <typename Resampling>
   void addEmission(const Ray& ray, const Hit& hit, Path& path, const Resampling& resampling) const {
-    if (hit.emitter == kNone || ray.direction.dot(hit.normal) >= 0.0F) {
+    if (ray.direction.dot(hit.normal) >= 0.0F) {
       return;
     }
     const LightTable& lights = m_prepared.lights;
@@ -217,7 +220,7 @@ class PathIntegrator {
   template <typename Bsdf>
   void addDirectLight(std::size_t i, Group& group, const Frame& frame, const Vec3& out, const Bsdf& bsdf,
                       const PathRandom& random, bool isShared) const {
-    const Hit& hit = group.hits[i];
+    const Hit hit = group.hits[i];
     Path& path = group.paths[i];
     const LightTable& lights = m_prepared.lights;
     const LightChoice::Choice choice = m_prepared.lightChoice.choose(litPoint(hit, bsdf), random.light());
@@ -270,7 +273,7 @@ class PathIntegrator {
     Path& path = group.paths[i];
     if (path.direct.maxCoeff() > 0.0F) {
       path.emitter = light.emitter;
-      group.shadowRays[i] = shadowRay(group.hits[i], light);
+      group.shadowRays.set(i, shadowRay(group.hits[i], light));
       group.lit |= RayMask{1} << i;
     }
   }
@@ -304,19 +307,10 @@ class PathIntegrator {
     return true;
   }
 
-  /// Russian roulette on the largest lane, the same for every hero, so that it changes no weight.
-  static bool survives(float u, Path& path) {
-    const float chance = std::min(1.0F, path.throughput.maxCoeff() * static_cast<float>(C) / path.heroSum);
-    if (u >= chance) {
-      return false;
-    }
-    path.throughput /= chance;
-    return true;
-  }
-
   const PreparedScene& m_prepared;
   const IntegratorSettings& m_settings;
   const bool m_hasGels;
+  const DiffuseSurfaces<C, kDispersive> m_diffuse;
 };
 
 }  // namespace metamer::spectral_ref

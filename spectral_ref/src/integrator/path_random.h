@@ -15,9 +15,11 @@ namespace metamer::spectral_ref {
 /// Random numbers of a path by use. Set 0 serves the camera and the first vertex; vertex n > 0 has set n.
 class PathRandom {
  public:
-  PathRandom() = default;
-  /// @param first  the sampler's set 0
-  PathRandom(const Sampler& sampler, const Sampler::Set& first) : m_sampler(sampler), m_set(first) {}
+  /// Begins a path. @return  where the sampler's set 0 is to be put
+  Sampler::Set& begin(const Sampler& sampler) {
+    m_sampler = sampler;
+    return m_set;
+  }
 
   Eigen::Vector2f pixel() const { return {m_set[0], m_set[1]}; }
   float wavelength() const { return m_set[2]; }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "geometry/embree_scene.h"
+#include "geometry/ray_group.h"
 #include "integrator/path_random.h"
 #include "integrator/reservoir.h"
 #include "lights/light_tree.h"
@@ -18,7 +18,6 @@ template <int C>
 struct PathStart {
   PathRandom random;
   WavelengthSet<C> wavelengths;
-  Ray ray;
 };
 
 /// Paths that are followed side by side, those of neighbouring pixels: which ones, depends on the picture alone.
@@ -26,6 +25,7 @@ template <int C>
 struct PathStarts {
   std::size_t count = 0;
   std::array<PathStart<C>, kRaysTogether> paths;
+  RayGroup rays;
 };
 
 /// What a path has become on its way from the camera.
@@ -37,6 +37,18 @@ struct Path {
     } else {
       return 1.0F;
     }
+  }
+
+  /// Starts anew from the camera.
+  void begin(const WavelengthSet<C>& wavelengths) {
+    radiance.setZero();
+    throughput.setOnes();
+    heroes = ones();
+    lanes = wavelengths;
+    heroSum = static_cast<float>(C);
+    heroSumBefore = static_cast<float>(C);
+    resampled = nullptr;
+    lastIsDelta = true;
   }
 
   Lanes<C> radiance = Lanes<C>::Zero();
@@ -54,6 +66,17 @@ struct Path {
   LitPoint last;
   std::uint32_t emitter = 0;  ///< that the direct light comes from
   bool lastIsDelta = true;    ///< next-event estimation could not have found what it hits
+};
+
+/// Paths that are followed side by side. One serves many groups, one after another: it takes time to set up.
+template <int C, bool kDispersive>
+struct PathGroup {
+  std::array<Path<C, kDispersive>, kRaysTogether> paths;
+  RayGroup rays;  ///< the paths' next edges
+  HitGroup hits;
+  RayGroup shadowRays;   ///< to where a path's direct light comes from
+  RayMask lit = 0;       ///< paths that have such light
+  RayMask absorbed = 0;  ///< paths that a gel has ended
 };
 
 }  // namespace metamer::spectral_ref

@@ -132,10 +132,12 @@ std::uint32_t dimensionSeed(std::uint32_t seed, std::size_t dimension) {
 constexpr std::array<std::uint32_t, Sampler::kSetSize> kCounters = {0,           kApart,      2U * kApart, 3U * kApart,
                                                                     4U * kApart, 5U * kApart, 6U * kApart, 7U * kApart};
 
+constexpr unsigned kShuffledBits = 16;
+
 /// The sets are padded: an Owen-shuffled index breaks the correlation between them and keeps the stratification.
 /// Only within blocks of 2^16 points: a permutation still, and an index of few bits stays one.
 METAMER_ALWAYS_INLINE std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
-  constexpr std::uint32_t kBlock = 0xffffU;
+  constexpr std::uint32_t kBlock = (1U << kShuffledBits) - 1U;
   std::uint32_t bits = reversed(index);
   scramble(bits, seed);
   return (bits & kBlock) | (index & ~kBlock);
@@ -154,11 +156,21 @@ METAMER_VECTOR_LANES void makeSeeds(Sampler::Seeds* const* sets, std::size_t cou
 
 /// All dimensions of several points: while one waits for a product, the next is begun.
 METAMER_VECTOR_LANES void makePoints(const Sampler::Order* orders, std::size_t count) {
+  std::array<std::uint32_t, Sampler::kMostTogether> indices{};
+  std::array<std::uint32_t, Sampler::kMostTogether> shuffles{};
+  for (std::size_t n = 0; n < count; ++n) {
+    indices[n] = orders[n].index;
+    shuffles[n] = orders[n].seeds->index;
+  }
+  for (std::size_t n = 0; n < indices.size(); ++n) {
+    indices[n] = shuffled(indices[n], shuffles[n]);
+  }
   for (std::size_t n = 0; n < count; ++n) {
     const Sampler::Seeds& seeds = *orders[n].seeds;
     std::array<Several, kParts> bits{};
-    std::uint32_t index = shuffled(orders[n].index, seeds.index);
-    for (std::size_t digit = 0; index != 0; ++digit, index >>= kDigitBits) {
+    std::uint32_t index = indices[n];
+    // Those of the shuffled bits without asking which are zero.
+    for (std::size_t digit = 0; digit < kShuffledBits / kDigitBits || index != 0; ++digit, index >>= kDigitBits) {
       for (std::size_t i = 0; i < kParts; ++i) {
         bits[i] ^= severalOf(kDigits[digit][index % kDigitValues].data())[i];
       }
@@ -216,21 +228,31 @@ Sampler::Set Sampler::set(const Seeds& seeds) const {
 }
 
 void Sampler::fill(std::span<const Order> orders) {
+  assert(orders.size() <= kMostTogether);
   makePoints(orders.data(), orders.size());
 }
 
 void Sampler::fill(std::span<const Sampler* const> samplers, std::uint32_t number, std::span<Set* const> sets) {
   assert(samplers.size() <= kMostTogether && sets.size() == samplers.size());
+  std::array<std::uint32_t, kMostTogether> sequences{};
   std::array<Seeds, kMostTogether> seeds;
-  std::array<Seeds*, kMostTogether> unmade{};
   std::array<Order, kMostTogether> orders{};
   for (std::size_t i = 0; i < samplers.size(); ++i) {
-    seeds[i].index = hash32(samplers[i]->m_sequence, number);
-    unmade[i] = &seeds[i];
+    sequences[i] = samplers[i]->m_sequence;
     orders[i] = {samplers[i]->m_index, &seeds[i], sets[i]};
   }
-  makeSeeds(unmade.data(), samplers.size());
+  seed({sequences.data(), samplers.size()}, number, {seeds.data(), samplers.size()});
   makePoints(orders.data(), samplers.size());
+}
+
+void Sampler::seed(std::span<const std::uint32_t> sequences, std::uint32_t number, std::span<Seeds> seeds) {
+  assert(sequences.size() <= kMostTogether && seeds.size() == sequences.size());
+  std::array<Seeds*, kMostTogether> unmade{};
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    seeds[i].index = hash32(sequences[i], number);
+    unmade[i] = &seeds[i];
+  }
+  makeSeeds(unmade.data(), seeds.size());
 }
 
 }  // namespace metamer::spectral_ref

@@ -51,8 +51,8 @@ class Sampler {
   /// What all points of a set have in common, whatever their index.
   struct Seeds {
     std::uint32_t index;  ///< of the shuffle
-    std::array<std::uint32_t, kSetSize> dimensions{};
-    Seeds() : index(0) {}
+    std::array<std::uint32_t, kSetSize> dimensions;
+    Seeds() = default;
     Seeds(std::uint32_t sequence, std::uint32_t number);
   };
   /// A set to be worked out together with others, which takes less time.
@@ -61,10 +61,13 @@ class Sampler {
     const Seeds* seeds;
     Set* set;
   };
+  static constexpr std::size_t kMostTogether = 8;
+  /// The seeds of a set of several sequences. @param seeds  of each; at most kMostTogether
+  static void seed(std::span<const std::uint32_t> sequences, std::uint32_t number, std::span<Seeds> seeds);
+  /// @param orders  at most kMostTogether
   static void fill(std::span<const Order> orders);
   /// The same set of several samplers. @param sets  of each; at most kMostTogether
   static void fill(std::span<const Sampler* const> samplers, std::uint32_t number, std::span<Set* const> sets);
-  static constexpr std::size_t kMostTogether = 8;
 
   Set set(std::uint32_t number) const { return set(Seeds(m_sequence, number)); }
   /// The same with seeds that have been worked out once for all points.

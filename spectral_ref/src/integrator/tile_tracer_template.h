@@ -55,24 +55,20 @@ class LaneTracer : public TileTracer {
     WavelengthGuide& guide = *m_context.guide;
     WavelengthGuide::Spectrum spectrum;
     PathStarts<C> starts;
-    typename Integrator::Radiances worths;
+    Group group;
     const auto parts = [&](int x, int y) { return guide.isLearntFrom(x, y) ? 1U : 0U; };
-    forGroups(tile, parts, [&](const PixelGroup& group) {
-      starts.count = group.count;
-      for (std::size_t i = 0; i < group.count; ++i) {
-        // Random numbers of no replicate of the film: it does not depend on what was learnt from them.
-        const PixelGroup::Place& place = group.places[i];
-        const Sequence sequence = sequenceFor(place.pixel, kReplicates);
-        const Sampler sampler(sequence.number, 0);
-        starts.paths[i] = startOf(place, {sampler, sampler.set(sequence.first)});
-      }
-      m_integrator.radiance(starts, kNoResampling, worths);
-      for (std::size_t i = 0; i < group.count; ++i) {
+    forGroups(tile, parts, [&](const PixelGroup& pixels) {
+      // Random numbers of no replicate of the film: it does not depend on what was learnt from them.
+      const Sequences sequences(m_context.options.seed, pixels, kReplicates);
+      startPaths(pixels, sequences, 0, starts);
+      m_integrator.follow(starts, kNoResampling, group);
+      for (std::size_t i = 0; i < pixels.count; ++i) {
         const WavelengthSet<C>& wavelengths = starts.paths[i].wavelengths;
+        Lanes<C> worth = group.paths[i].radiance;
         for (int k = 0; k < C; ++k) {
-          worths[i][k] *= wavelengths.weight[k] * m_context.sensor.worth(wavelengths.cell[static_cast<std::size_t>(k)]);
+          worth[k] *= wavelengths.weight[k] * m_context.sensor.worth(wavelengths.cell[static_cast<std::size_t>(k)]);
         }
-        guide.learn<C>(guide.blockOf(group.places[i].x, group.places[i].y), wavelengths, worths[i], spectrum);
+        guide.learn<C>(guide.blockOf(pixels.places[i].x, pixels.places[i].y), wavelengths, worth, spectrum);
       }
     });
     guide.add(spectrum);
@@ -81,35 +77,21 @@ class LaneTracer : public TileTracer {
   void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, bool isKept) override {
     const Replicates& replicates = m_context.film.format().replicates;
     PathStarts<C> starts;
-    typename Integrator::Radiances radiances;
+    Group group;
     const auto parts = [&](int x, int y) { return m_edges.paths(pixelOf(x, y)); };
-    forGroups(tile, parts, [&](const PixelGroup& group) {
-      starts.count = group.count;
-      std::array<std::array<std::optional<Sequence>, kRaysTogether>, kReplicates> sequences;
-      std::array<std::uint32_t, kRaysTogether> indices{};
-      std::array<Sampler::Order, kRaysTogether> orders{};
-      std::array<Sampler::Set, kRaysTogether> sets{};
+    forGroups(tile, parts, [&](const PixelGroup& pixels) {
+      std::array<std::optional<Sequences>, kReplicates> sequences;
       for (std::uint64_t sample = begin; sample < end; ++sample) {
         const std::size_t replicate = replicates.of(sample);
-        const auto index = static_cast<std::uint32_t>(replicates.index(sample));
-        for (std::size_t i = 0; i < group.count; ++i) {
-          const PixelGroup::Place& place = group.places[i];
-          std::optional<Sequence>& sequence = sequences[replicate][i];
-          if (!sequence) {
-            sequence = sequenceFor(place.pixel, replicate);
-          }
-          indices[i] = index * place.parts + place.part;
-          orders[i] = {indices[i], &sequence->first, &sets[i]};
+        if (!sequences[replicate]) {
+          sequences[replicate].emplace(m_context.options.seed, pixels, replicate);
         }
-        Sampler::fill({orders.data(), group.count});
-        for (std::size_t i = 0; i < group.count; ++i) {
-          starts.paths[i] = startOf(group.places[i], {Sampler(sequences[replicate][i]->number, indices[i]), sets[i]});
-        }
-        radianceOf(group, sample, starts, radiances);
-        for (std::size_t i = 0; i < group.count && isKept; ++i) {
-          const PixelGroup::Place& place = group.places[i];
+        startPaths(pixels, *sequences[replicate], static_cast<std::uint32_t>(replicates.index(sample)), starts);
+        follow(pixels, sample, starts, group);
+        for (std::size_t i = 0; i < pixels.count && isKept; ++i) {
+          const PixelGroup::Place& place = pixels.places[i];
           m_context.sensor.template add<C>(m_context.film, place.pixel, replicate, starts.paths[i].wavelengths,
-                                           radiances[i] / static_cast<float>(place.parts));
+                                           group.paths[i].radiance / static_cast<float>(place.parts));
         }
       }
     });
@@ -117,10 +99,10 @@ class LaneTracer : public TileTracer {
 
  protected:
   using Integrator = PathIntegrator<C, kDispersive>;
+  using Group = typename Integrator::Group;
 
-  virtual void radianceOf(const PixelGroup& /*group*/, std::uint64_t /*sample*/, PathStarts<C>& starts,
-                          typename Integrator::Radiances& radiances) {
-    m_integrator.radiance(starts, kNoResampling, radiances);
+  virtual void follow(const PixelGroup& /*pixels*/, std::uint64_t /*sample*/, PathStarts<C>& starts, Group& group) {
+    m_integrator.follow(starts, kNoResampling, group);
   }
 
   std::size_t pixelOf(int x, int y) const {
@@ -134,11 +116,16 @@ class LaneTracer : public TileTracer {
  private:
   static constexpr std::array<NoResampling, kRaysTogether> kNoResampling{};
 
-  /// Random numbers of a pixel's replicate, with what they begin with worked out once.
-  struct Sequence {
-    explicit Sequence(std::uint32_t name) : number(name), first(name, 0) {}
-    std::uint32_t number;
-    Sampler::Seeds first;
+  /// Random numbers of the pixels' replicate, with what they begin with worked out once.
+  struct Sequences {
+    Sequences(std::uint32_t seed, const PixelGroup& pixels, std::size_t replicate) {
+      for (std::size_t i = 0; i < pixels.count; ++i) {
+        numbers[i] = sequenceOf(seed, pixels.places[i].pixel, replicate);
+      }
+      Sampler::seed({numbers.data(), pixels.count}, 0, {first.data(), pixels.count});
+    }
+    std::array<std::uint32_t, kRaysTogether> numbers;
+    std::array<Sampler::Seeds, kRaysTogether> first;
   };
 
   /// Deals the paths of a tile's pixels out in groups of neighbours. @param parts  paths of a pixel; 0: none
@@ -171,14 +158,29 @@ class LaneTracer : public TileTracer {
     finish();
   }
 
-  Sequence sequenceFor(std::size_t pixel, std::size_t replicate) const {
-    return Sequence(sequenceOf(m_context.options.seed, pixel, replicate));
-  }
-
-  PathStart<C> startOf(const PixelGroup::Place& at, const PathRandom& random) const {
-    const Eigen::Vector2f place = m_context.prepared.camera.filtered(at.x, at.y, random.pixel());
-    return {random, wavelengthsOf(at.x, at.y, random.wavelength()),
-            m_context.prepared.camera.ray(place.x(), place.y())};
+  /// Random numbers, wavelengths and camera rays of a group's paths. @param index  of the sample in its sequence
+  void startPaths(const PixelGroup& pixels, const Sequences& sequences, std::uint32_t index,
+                  PathStarts<C>& starts) const {
+    std::array<Sampler::Order, kRaysTogether> orders;
+    starts.count = pixels.count;
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+      const PixelGroup::Place& at = pixels.places[i];
+      const std::uint32_t number = index * at.parts + at.part;
+      Sampler::Set& set = starts.paths[i].random.begin(Sampler(sequences.numbers[i], number));
+      orders[i] = {number, &sequences.first[i], &set};
+    }
+    Sampler::fill({orders.data(), pixels.count});
+    EachRay<float> x{};
+    EachRay<float> y{};
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+      const PixelGroup::Place& at = pixels.places[i];
+      PathStart<C>& start = starts.paths[i];
+      const Eigen::Vector2f place = m_context.prepared.camera.filtered(at.x, at.y, start.random.pixel());
+      x[i] = place.x();
+      y[i] = place.y();
+      start.wavelengths = wavelengthsOf(at.x, at.y, start.random.wavelength());
+    }
+    m_context.prepared.camera.rays(x, y, starts.rays);
   }
 
   WavelengthSet<C> wavelengthsOf(int x, int y, float u) const {
@@ -244,17 +246,17 @@ class ReservoirTracer : public LaneTracer<C, kDispersive> {
   void restore(StateReader& reader, std::uint64_t sample) override { reader.getAll(m_reservoirs[(sample + 1) % 2]); }
 
  protected:
-  void radianceOf(const PixelGroup& group, std::uint64_t sample, PathStarts<C>& starts,
-                  typename Base::Integrator::Radiances& radiances) override {
+  void follow(const PixelGroup& pixels, std::uint64_t sample, PathStarts<C>& starts,
+              typename Base::Group& group) override {
     std::array<Resampling, kRaysTogether> resampling;
     std::array<Reservoir<C>, kRaysTogether> reservoirs;  // none filled yet
-    for (std::size_t i = 0; i < group.count; ++i) {
-      resampling[i] = {this, &m_sampler, &reservoirs[i], isHero(), group.places[i], sample};
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+      resampling[i] = {this, &m_sampler, &reservoirs[i], isHero(), pixels.places[i], sample};
     }
-    this->m_integrator.radiance(starts, resampling, radiances);
+    this->m_integrator.follow(starts, resampling, group);
     // Of several paths of a pixel the last one leaves its reservoir to neighbours.
-    for (std::size_t i = 0; i < group.count; ++i) {
-      m_reservoirs[sample % 2][group.places[i].pixel] = reservoirs[i];
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+      m_reservoirs[sample % 2][pixels.places[i].pixel] = reservoirs[i];
     }
   }
 

@@ -2,24 +2,29 @@
 #include "lights/light_branches.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
 namespace metamer::spectral_ref {
 namespace {
 
-template <std::size_t count>
-float sumOf(const std::array<float, count>& values) {
-  float sum = 0;
-  for (const float value : values) {
-    sum += value;
-  }
-  return sum;
-}
-
 /// As std::max, by value: vector lanes are filled by it.
 float larger(float a, float b) {
   return a > b ? a : b;
+}
+
+/// Asks for all of something in memory before it is needed.
+template <typename T>
+void prefetch(const T& object) {
+#ifdef __GNUC__
+  constexpr std::size_t kLine = 64;
+  for (std::size_t at = 0; at < sizeof(T); at += kLine) {
+    __builtin_prefetch(reinterpret_cast<const char*>(&object) + at);  // NOLINT
+  }
+#else
+  static_cast<void>(object);
+#endif
 }
 
 }  // namespace
@@ -45,6 +50,8 @@ void LightBranches::add(const LightTree& tree, std::uint32_t root, std::size_t i
     children.insert(largest + 1, tree.node(opened).right);
   }
   Node node;
+  node.begin.fill(kBehindAll);
+  node.end.fill(kBehindAll);
   for (std::size_t k = 0; k < children.size(); ++k) {
     const LightTree::Node& from = tree.node(children[k]);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -106,34 +113,57 @@ LightBranches::Each<float> LightBranches::importances(const Node& node, const Li
   return result;
 }
 
-LightBranches::Leaf LightBranches::descend(const LitPoint& point, double u) const {
-  Leaf leaf{0, 0, 1.0F, u};
-  std::uint32_t index = 0;
-  do {
-    const Node& node = m_nodes[index];
-    const Each<float> importance = importances(node, point);
-    const float sum = sumOf(importance);
-    if (!(sum > 0.0F)) {
-      return {};
-    }
-    const double place = leaf.u * static_cast<double>(sum);
-    double start = 0;
-    double below = 0;
-    std::size_t chosen = 0;
-    for (std::size_t k = 0; k < kWidth && place >= below; ++k) {
-      if (importance[k] > 0.0F) {
-        chosen = k;
-        start = below;
-        below += static_cast<double>(importance[k]);
+/// Goes on to a child. @return  its node, or kLeaf: there the way ends
+std::uint32_t LightBranches::step(const Node& node, const LitPoint& point, Leaf& leaf) {
+  const Each<float> importance = importances(node, point);
+  // Half, quarter, eighth, without a branch: which way it goes is chance.
+  const std::array<float, 4> pairs = {importance[0] + importance[1], importance[2] + importance[3],
+                                      importance[4] + importance[5], importance[6] + importance[7]};
+  const std::array<float, 2> halves = {pairs[0] + pairs[1], pairs[2] + pairs[3]};
+  const float sum = halves[0] + halves[1];
+  if (!(sum > 0.0F)) {
+    leaf.probability = 0.0F;
+    return kLeaf;
+  }
+  double place = leaf.u * static_cast<double>(sum);
+  std::size_t chosen = 0;
+  const auto choose = [&](const auto& parts) {
+    chosen *= 2;
+    const bool isSecond = place >= static_cast<double>(parts[chosen]) && parts[chosen + 1] > 0.0F;
+    place -= isSecond ? static_cast<double>(parts[chosen]) : 0.0;
+    chosen += isSecond ? 1U : 0U;
+  };
+  choose(halves);
+  choose(pairs);
+  choose(importance);
+  leaf.u = std::clamp(place / static_cast<double>(importance[chosen]), 0.0, 1.0 - 0x1p-53);
+  leaf.probability *= importance[chosen] / sum;
+  leaf.begin = node.begin[chosen];
+  leaf.end = node.end[chosen];
+  return node.child[chosen];
+}
+
+void LightBranches::descend(std::span<const LitPoint> points, std::span<Leaf> leaves) const {
+  assert(points.size() == leaves.size() && points.size() <= kMostTogether);
+  std::array<std::uint32_t, kMostTogether> nodes{};
+  std::array<std::size_t, kMostTogether> active{};
+  std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    active[i] = i;
+    leaves[i].probability = 1.0F;
+  }
+  while (count > 0) {
+    std::size_t left = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::size_t i = active[n];
+      nodes[i] = step(m_nodes[nodes[i]], points[i], leaves[i]);
+      if (nodes[i] != kLeaf) {
+        prefetch(m_nodes[nodes[i]]);
+        active[left++] = i;
       }
     }
-    leaf.u = std::clamp((place - start) / static_cast<double>(importance[chosen]), 0.0, 1.0 - 0x1p-53);
-    leaf.probability *= importance[chosen] / sum;
-    leaf.begin = node.begin[chosen];
-    leaf.end = node.end[chosen];
-    index = node.child[chosen];
-  } while (index != kLeaf);
-  return leaf;
+    count = left;
+  }
 }
 
 LightBranches::Leaf LightBranches::leafOf(const LitPoint& point, std::uint32_t position) const {
@@ -142,10 +172,11 @@ LightBranches::Leaf LightBranches::leafOf(const LitPoint& point, std::uint32_t p
   do {
     const Node& node = m_nodes[index];
     const Each<float> importance = importances(node, point);
-    const float sum = sumOf(importance);
+    const float sum = ((importance[0] + importance[1]) + (importance[2] + importance[3])) +
+                      ((importance[4] + importance[5]) + (importance[6] + importance[7]));
     std::size_t k = 0;
-    while (node.end[k] <= position) {
-      ++k;
+    for (const std::uint32_t end : node.end) {
+      k += end <= position ? 1U : 0U;
     }
     leaf.probability *= sum > 0.0F ? importance[k] / sum : 0.0F;
     leaf.begin = node.begin[k];

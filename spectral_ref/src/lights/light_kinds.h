@@ -16,13 +16,13 @@ namespace metamer::spectral_ref {
 ///
 ///     static void collect(scene, shapes, add)       calls add(emitter, glow, number of elements, EmbreeScene's number
 ///                                                   or kNone) for each of its emitters in a scene
-///     LightSample located(element, u, v, from)      a point of an element, with the density that it has once the
+///     AreaPoint areaPoint(element, u, v)            a point of an element, evenly over its area ...
+///     LightSample located(element, u, v, from)      ... or, of other kinds, one with the density that it has once the
 ///                                                   element is chosen; pdf 0 where it is not seen
 ///     std::uint32_t elementOf(hit)                  the element that a ray hit ...
 ///     float pdf(hit, from, direction)               ... and the density with which located() finds it
 ///     double powerExtent(element)                   power over radiance or intensity
 ///     LightBounds bounds(element)                   where it lies and shines, for a radiance or intensity of 1
-///     float geometry(element, u, v, from, receiver) may be left out: what located() comes to, in fewer steps
 using EmitterKind =
     std::variant<RectangleEmitter, SphereEmitter, MeshEmitter, EnvironmentEmitter, PointEmitter, SpotEmitter>;
 

@@ -27,15 +27,21 @@ struct Glow {
   const EmitterPicture* picture = nullptr;
 };
 
+/// A point of an element that has an area.
+struct AreaPoint {
+  Vec3 place;
+  Vec3 area;  ///< normal, as long as the element's area
+};
+
 /// From a density over area to one over solid angle.
-inline LightSample seenOnArea(const Vec3& point, const Vec3& normal, float area, const Vec3& from) {
+inline LightSample seenOnArea(const AreaPoint& point, const Vec3& from) {
   LightSample sample;
-  const Vec3 towards = point - from;
+  const Vec3 towards = point.place - from;
   const float squared = towards.squaredNorm();
   sample.distance = std::sqrt(squared);
   sample.direction = towards / sample.distance;
-  const float cosine = -sample.direction.dot(normal);
-  sample.pdf = cosine > 0.0F ? squared / (cosine * area) : 0.0F;
+  const float seen = -sample.direction.dot(point.area);
+  sample.pdf = seen > 0.0F ? squared / seen : 0.0F;
   return sample;
 }
 
@@ -45,10 +51,11 @@ inline float densityOnArea(const Hit& hit, float area, const Vec3& from, const V
   return cosine > 0.0F ? (hit.position - from).squaredNorm() / (cosine * area) : 0.0F;
 }
 
-/// The receiver's cosine over the density, for a point whose area has this normal.
-inline float geometryOfArea(const Vec3& towards, const Vec3& area, const Vec3& normal) {
+/// The receiver's cosine over the density.
+inline float geometryOfArea(const AreaPoint& point, const Vec3& from, const Vec3& normal) {
+  const Vec3 towards = point.place - from;
   const float squared = towards.squaredNorm();
-  return std::max(0.0F, towards.dot(normal)) * std::max(0.0F, -towards.dot(area)) / (squared * squared);
+  return std::max(0.0F, towards.dot(normal)) * std::max(0.0F, -towards.dot(point.area)) / (squared * squared);
 }
 
 /// Of emitters that no ray hits.

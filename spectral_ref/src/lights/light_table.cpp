@@ -100,11 +100,25 @@ float LightTable::geometry(const LightPoint& point, const Vec3& from, const Vec3
   const std::uint32_t element = point.entry - emitter.first;
   return std::visit(
       [&](const auto& kind) {
-        if constexpr (requires { kind.geometry(element, point.u, point.v, from, normal); }) {
-          return kind.geometry(element, point.u, point.v, from, normal);
+        if constexpr (requires { kind.areaPoint(element, point.u, point.v); }) {
+          return geometryOfArea(kind.areaPoint(element, point.u, point.v), from, normal);
         } else {
           const LightSample light = kind.located(element, point.u, point.v, from);
           return light.pdf > 0.0F ? std::max(0.0F, light.direction.dot(normal)) * light.scale / light.pdf : 0.0F;
+        }
+      },
+      emitter.kind);
+}
+
+std::optional<AreaPoint> LightTable::areaPoint(const LightPoint& point) const {
+  const Emitter& emitter = m_emitters[m_emitterOfEntry[point.entry]];
+  const std::uint32_t element = point.entry - emitter.first;
+  return std::visit(
+      [&](const auto& kind) -> std::optional<AreaPoint> {
+        if constexpr (requires { kind.areaPoint(element, point.u, point.v); }) {
+          return kind.areaPoint(element, point.u, point.v);
+        } else {
+          return std::nullopt;
         }
       },
       emitter.kind);
@@ -114,8 +128,15 @@ LightSample LightTable::located(const LightPoint& point, const Vec3& from) const
   const std::uint32_t index = m_emitterOfEntry[point.entry];
   const Emitter& emitter = m_emitters[index];
   const std::uint32_t element = point.entry - emitter.first;
-  LightSample sample =
-      std::visit([&](const auto& kind) { return kind.located(element, point.u, point.v, from); }, emitter.kind);
+  LightSample sample = std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.areaPoint(element, point.u, point.v); }) {
+          return seenOnArea(kind.areaPoint(element, point.u, point.v), from);
+        } else {
+          return kind.located(element, point.u, point.v, from);
+        }
+      },
+      emitter.kind);
   sample.emitter = index;
   sample.element = element;
   return sample;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geometry/embree_scene.h"
@@ -47,6 +48,8 @@ class LightTable {
   }
   /// The same with the density that the point has once its entry is chosen.
   LightSample located(const LightPoint& point, const Vec3& from) const;
+  /// Where a point lies, if its light has an area that it is drawn from.
+  std::optional<AreaPoint> areaPoint(const LightPoint& point) const;
 
   /// What located() comes to: the receiver's cosine times scale over density; 0 where the point is not seen.
   float geometry(const LightPoint& point, const Vec3& from, const Vec3& normal) const;
@@ -117,6 +120,12 @@ class LightTable {
       sum += drives[k] * spectra.at(picture.emitters[k], wavelengths);
     }
     return sum;
+  }
+  /// The same of an entry.
+  template <int C>
+  Lanes<C> radianceOf(std::uint32_t entry, const SpectrumTables& spectra, const WavelengthSet<C>& wavelengths) const {
+    const std::uint32_t emitter = m_emitterOfEntry[entry];
+    return radiance<C>(emitter, entry - m_emitters[emitter].first, spectra, wavelengths);
   }
 
  private:

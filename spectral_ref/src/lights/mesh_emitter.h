@@ -23,23 +23,12 @@ struct MeshEmitter {
     }
   }
 
-  LightSample located(std::uint32_t element, float u, float v, const Vec3& from) const {
+  AreaPoint areaPoint(std::uint32_t element, float u, float v) const {
     const auto corner = corners(element);
     const float root = std::sqrt(u);
     const Vec3 edge1 = corner[1] - corner[0];
     const Vec3 edge2 = corner[2] - corner[0];
-    const Vec3 normal = edge1.cross(edge2);
-    const float length = normal.norm();
-    return seenOnArea(corner[0] + edge1 * (root * (1.0F - v)) + edge2 * (root * v), normal / length, 0.5F * length,
-                      from);
-  }
-  float geometry(std::uint32_t element, float u, float v, const Vec3& from, const Vec3& receiver) const {
-    const auto corner = corners(element);
-    const float root = std::sqrt(u);
-    const Vec3 edge1 = corner[1] - corner[0];
-    const Vec3 edge2 = corner[2] - corner[0];
-    const Vec3 towards = corner[0] + edge1 * (root * (1.0F - v)) + edge2 * (root * v) - from;
-    return geometryOfArea(towards, 0.5F * edge1.cross(edge2), receiver);
+    return {corner[0] + edge1 * (root * (1.0F - v)) + edge2 * (root * v), 0.5F * edge1.cross(edge2)};
   }
   static std::uint32_t elementOf(const Hit& hit) { return hit.primitive; }
   float pdf(const Hit& hit, const Vec3& from, const Vec3& direction) const {

@@ -53,12 +53,7 @@ struct RectangleEmitter {
     const Eigen::Vector2f place = along(element, u, v);
     return corner + edgeU * place.x() + edgeV * place.y();
   }
-  LightSample located(std::uint32_t element, float u, float v, const Vec3& from) const {
-    return seenOnArea(at(element, u, v), normal, area, from);
-  }
-  float geometry(std::uint32_t element, float u, float v, const Vec3& from, const Vec3& receiver) const {
-    return geometryOfArea(at(element, u, v) - from, normal * area, receiver);
-  }
+  AreaPoint areaPoint(std::uint32_t element, float u, float v) const { return {at(element, u, v), normal * area}; }
   std::uint32_t elementOf(const Hit& hit) const {
     if (picture == nullptr) {
       return 0;

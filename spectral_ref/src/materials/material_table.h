@@ -137,6 +137,9 @@ class MaterialTable {
                             const WavelengthSet<C>& wavelengths) const {
     return {m_materials[material], spectra, wavelengths};
   }
+  /// Whether all light is given back as Lambert's law says, at its own wavelength: its reflectance is colour().
+  bool isPlain(std::uint32_t material) const { return m_materials[material].kind == Material::Kind::Diffuse; }
+  SpectrumId colour(std::uint32_t material) const { return m_materials[material].colour; }
   /// Whether all light is given back as Lambert's law says, at its own wavelength or another.
   bool isDiffuse(std::uint32_t material) const {
     return m_materials[material].kind == Material::Kind::Diffuse ||

@@ -37,10 +37,12 @@ TEST(EmbreeSceneTest, AGroupFindsWhatItsRaysFindAlone) {
   int misses = 0;
   for (int turn = 0; turn < 2000; ++turn) {
     RayGroup rays;
-    for (Ray& ray : rays) {
+    for (std::size_t i = 0; i < kRaysTogether; ++i) {
+      Ray ray;
       ray.origin = Vec3(place(random), place(random), place(random));
       ray.direction = (Vec3(place(random), place(random), place(random)) - ray.origin).normalized();
       ray.most = turn % 2 == 0 ? 1.5F : std::numeric_limits<float>::infinity();
+      rays.set(i, ray);
     }
     // All, some, one.
     const RayMask active = turn % 3 == 0 ? 0xffU : turn % 3 == 1 ? 0xa6U : 0x10U;
@@ -60,10 +62,11 @@ TEST(EmbreeSceneTest, AGroupFindsWhatItsRaysFindAlone) {
       ASSERT_EQ((hidden & bit) != 0, isHit);
       ++(isHit ? hits : misses);
       if (isHit) {
-        EXPECT_EQ(together[i].material, alone.material);
-        EXPECT_NEAR(together[i].distance, alone.distance, 1e-4F * (1.0F + alone.distance));
-        EXPECT_LT((together[i].normal - alone.normal).norm(), 1e-3F);
-        EXPECT_LT((together[i].position - alone.position).norm(), 1e-4F * (1.0F + alone.distance));
+        const Hit hit = together[i];
+        EXPECT_EQ(hit.material, alone.material);
+        EXPECT_NEAR(hit.distance, alone.distance, 1e-4F * (1.0F + alone.distance));
+        EXPECT_LT((hit.normal - alone.normal).norm(), 1e-3F);
+        EXPECT_LT((hit.position - alone.position).norm(), 1e-4F * (1.0F + alone.distance));
       }
     }
   }

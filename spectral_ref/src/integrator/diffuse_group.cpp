@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "integrator/diffuse_group.h"
+
+#include <limits>
+
+#include "integrator/gel_passage.h"
+#include "metamer/spectral/vector_lanes.h"
+
+namespace metamer::spectral_ref {
+namespace {
+
+/// As std::max, by value: vector lanes are filled by it.
+METAMER_ALWAYS_INLINE float larger(float a, float b) {
+  return a > b ? a : b;
+}
+
+METAMER_VECTOR_LANES void look(const HitGroup& hits, LightsOfGroup& lights, RayGroup& towards) {
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    const float px = hits.position.x[i];
+    const float py = hits.position.y[i];
+    const float pz = hits.position.z[i];
+    const float nx = hits.normal.x[i];
+    const float ny = hits.normal.y[i];
+    const float nz = hits.normal.z[i];
+    const float x = lights.place.x[i] - px;
+    const float y = lights.place.y[i] - py;
+    const float z = lights.place.z[i] - pz;
+    const float inverse = 1.0F / (x * x + y * y + z * z);
+    const float received = larger(x * nx + y * ny + z * nz, 0.0F) * inverse;
+    const float given = larger(-(x * lights.area.x[i] + y * lights.area.y[i] + z * lights.area.z[i]), 0.0F) * inverse;
+    // Both cosines over the squared distance: cos / pi over the density of the direction, times pi.
+    const float geometry = received * given;
+    lights.weight[i] = geometry / (kPi * lights.chance[i] + geometry * lights.isShared[i]);
+    const float off = offDistance(larger(larger(std::abs(px), std::abs(py)), std::abs(pz)));
+    const float ox = px + nx * off;
+    const float oy = py + ny * off;
+    const float oz = pz + nz * off;
+    towards.origin.x[i] = ox;
+    towards.origin.y[i] = oy;
+    towards.origin.z[i] = oz;
+    // From where it starts: a light close by must not hide itself.
+    towards.direction.x[i] = lights.place.x[i] - ox;
+    towards.direction.y[i] = lights.place.y[i] - oy;
+    towards.direction.z[i] = lights.place.z[i] - oz;
+    towards.most[i] = kShortOfLight;
+  }
+}
+
+METAMER_VECTOR_LANES void scatter(const HitGroup& hits, const EachRay<float>& u, const EachRay<float>& v,
+                                  RayGroup& next, EachRay<float>& pdf) {
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    float a = 0;
+    float b = 0;
+    squareToDisc(u[i], v[i], a, b);
+    const float c = std::sqrt(larger(1.0F - (a * a + b * b), 0.0F));
+    // The axes of Frame.
+    const float nx = hits.normal.x[i];
+    const float ny = hits.normal.y[i];
+    const float nz = hits.normal.z[i];
+    const float sign = std::copysign(1.0F, nz);
+    const float p = -1.0F / (sign + nz);
+    const float q = nx * ny * p;
+    next.direction.x[i] = (1.0F + sign * nx * nx * p) * a + q * b + nx * c;
+    next.direction.y[i] = sign * q * a + (sign + ny * ny * p) * b + ny * c;
+    next.direction.z[i] = -sign * nx * a - ny * b + nz * c;
+    const float px = hits.position.x[i];
+    const float py = hits.position.y[i];
+    const float pz = hits.position.z[i];
+    const float off = offDistance(larger(larger(std::abs(px), std::abs(py)), std::abs(pz)));
+    next.origin.x[i] = px + nx * off;
+    next.origin.y[i] = py + ny * off;
+    next.origin.z[i] = pz + nz * off;
+    next.most[i] = std::numeric_limits<float>::infinity();
+    pdf[i] = c * kInversePi;
+  }
+}
+
+}  // namespace
+
+void lookAtLights(const HitGroup& hits, LightsOfGroup& lights, RayGroup& towards) {
+  look(hits, lights, towards);
+}
+
+void scatterDiffusely(const HitGroup& hits, const EachRay<float>& u, const EachRay<float>& v, RayMask paths,
+                      RayGroup& next, EachRay<float>& pdf) {
+  constexpr RayMask kAll = (RayMask{1} << kRaysTogether) - 1U;
+  if (paths == kAll) {
+    scatter(hits, u, v, next, pdf);
+    return;
+  }
+  RayGroup drawn;
+  scatter(hits, u, v, drawn, pdf);
+  forEachRay(paths, [&](std::size_t i) { next.set(i, drawn[i]); });
+}
+
+}  // namespace metamer::spectral_ref
