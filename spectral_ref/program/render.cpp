@@ -250,7 +250,9 @@ class RenderJob {
     const auto taken = static_cast<double>(m_renderer->nextSample());
     const double ratio = std::isfinite(error) ? error / m_arguments.targetError : std::sqrt(2.0);
     const double wanted = std::ceil(taken * ratio * ratio);
-    const double next = std::clamp(wanted, std::ceil(1.02 * taken), static_cast<double>(m_range[1]));
+    // A few samples may say far too many: then it is looked at again before.
+    const double most = std::min(4.0 * taken, static_cast<double>(m_range[1]));
+    const double next = std::min(std::max(wanted, std::ceil(1.02 * taken)), most);
     return static_cast<std::uint64_t>(next);
   }
 
