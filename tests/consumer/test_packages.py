@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TREE = Path(sys.argv[1])
 VERSION = "1.2.3"
 SECONDS = "1700000000"
+PLUGIN = "/usr/OFX/Plugins/metamer.ofx.bundle/Contents/Linux-x86-64/metamer.ofx"
 SYSTEM = f"{os.uname().sysname.lower()}-{os.uname().machine}"
 
 
@@ -104,18 +105,27 @@ class Packages(unittest.TestCase):
         shutil.copy("/etc/resolv.conf", system / "etc" / "resolv.conf")
         for package in self.out[0].glob("*.deb"):
             shutil.copy(package, system / "root" / package.name)
-        # Programs find their own libraries by where /proc says that they lie.
-        run("mount", "-t", "proc", "proc", system / "proc")
-        self.addCleanup(run, "umount", system / "proc")
+        # /proc is not mounted: programs find their own libraries without it.
         shell = {**os.environ, "DEBIAN_FRONTEND": "noninteractive", "HOME": "/root", "LC_ALL": "C"}
+        shell.pop("METAMER_DATA", None)
 
         def inside(command):
             return run("chroot", system, "bash", "-euc", command, env=shell)
 
         inside("apt-get install -y -q --no-install-recommends /root/*.deb")
         self.assertIn("HP1", inside("lutgen list illuminants sodium"))
-        inside("cd /root && lutgen bake --illuminant-in D65 --illuminant-out A -o a.cube && test -s a.cube.json && spectral_ref --help")
-        inside("test -f /usr/OFX/Plugins/metamer.ofx.bundle/Contents/Resources/data/manifest.json")
+        inside("cd /root && lutgen bake --illuminant-in D65 --illuminant-out A -o a.cube && test -s a.cube.json")
+        shutil.copy(ROOT / "demo/files/scene.yaml", system / "root")
+        (system / "root/look.yaml").write_text("metamer: 1\ninput: {illuminant: D65}\noutput: {illuminant: A}\n")
+        inside("cd /root && spectral_ref render scene.yaml -o scene.exr --spp 4 && "
+               "lutgen apply look.yaml scene.exr relit.exr && test -s relit.exr")
+        # The plug-in, in a host that renders one frame.
+        shutil.copy(Path(os.environ["METAMER_BIN"]) / "metamer_ofx_frames", system / "root")
+        (system / "root/jobs.txt").write_text("0\tframe.f32\toutputIlluminant=HP1\n0\tother.f32\toutputIlluminant=A\n")
+        inside(f"cd /root && METAMER_OFX_LIBRARY={PLUGIN} ./metamer_ofx_frames jobs.txt")
+        frames = [(system / "root" / name).read_bytes() for name in ("frame.f32", "other.f32")]
+        self.assertEqual({len(frame) for frame in frames}, {160 * 90 * 16})
+        self.assertNotEqual(*frames)
         inside("apt-get remove -y -q metamer-tools metamer-ofx")
         inside("! test -e /opt/metamer && ! test -e /usr/OFX/Plugins/metamer.ofx.bundle && ! test -e /usr/bin/lutgen")
 

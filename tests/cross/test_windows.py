@@ -24,7 +24,7 @@ LIBRARY = "Contents/Win64/metamer.ofx"
 ENTRY_POINTS = {"OfxGetNumberOfPlugins", "OfxGetPlugin", "OfxSetHost"}
 # Of every Windows 10: the kernel and the C runtime that comes with it.
 SYSTEM_LIBRARIES = r"(?i)(kernel32|ntdll|advapi32|api-ms-win-crt-[\w-]+)\.dll"
-FOLDER = "プラグイン ☀ й é"
+FOLDER = "调色 プラグイン ☀ й é"
 
 
 def program(*names):
