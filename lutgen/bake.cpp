@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "library.h"
 #include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/shader_bake.h"
 #include "metamer/ocio/shaper.h"
@@ -176,7 +177,7 @@ void bake(const BakeArguments& arguments) {
     convert(arguments, *format);
     return;
   }
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   const sip::Recipe recipe = recipeOf(arguments, library);
   ocio::BakeOptions options = optionsOf(arguments);
   if (arguments.toStdout || spectral::isStream(spectral::pathOf(arguments.output))) {

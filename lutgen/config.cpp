@@ -7,6 +7,7 @@
 #include <set>
 
 #include "commands.h"
+#include "library.h"
 #include "metamer/ocio/config_writer.h"
 #include "metamer/ocio/log_cube.h"
 #include "metamer/spectral/formatted.h"
@@ -25,7 +26,7 @@ struct ConfigArguments {
 };
 
 void writeConfig(const ConfigArguments& arguments) {
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   std::vector<sip::Recipe> recipes;
   for (const std::string& file : arguments.recipes) {
     recipes.push_back(sip::readRecipe(spectral::pathOf(file)));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluorescence.h"
 
+#include "library.h"
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral/fluorescence.h"
@@ -79,8 +80,8 @@ void describe(const spectral::CompactFluorescence& surface) {
 }  // namespace
 
 void showFluorescence(const std::string& file, const std::vector<std::string>& lights) {
-  const spectral::DataLibrary library = spectral::DataLibrary::openDefault();
-  const spectral::Fluorescence surface = spectral::readFluorescence(spectral::pathOf(file));
+  const auto library = openLibrary();
+  const spectral::Fluorescence surface = spectral::readFluorescence(spectral::pathOf(file), library.pictures());
   std::visit([](const auto& one) { describe(one); }, surface);
   const FluorescentSamples samples = spectral::samplesOf(surface);
   for (const std::string& name : lights) {
@@ -97,8 +98,8 @@ void showFluorescence(const std::string& file, const std::vector<std::string>& l
 }
 
 void fitFluorescence(const std::string& file, const std::string& output, const std::vector<std::string>& lights) {
-  const spectral::DataLibrary library = spectral::DataLibrary::openDefault();
-  const spectral::Fluorescence surface = spectral::readFluorescence(spectral::pathOf(file));
+  const auto library = openLibrary();
+  const spectral::Fluorescence surface = spectral::readFluorescence(spectral::pathOf(file), library.pictures());
   const auto* matrix = std::get_if<spectral::Reradiation>(&surface);
   if (matrix == nullptr) {
     throw spectral::InputError(file, "form", "compact", "is what a fit makes; give a matrix");

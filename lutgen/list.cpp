@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "library.h"
 #include "light_figures.h"
 #include "metamer/ocio/lut_writer.h"
 #include "metamer/ocio/shader_bake.h"
@@ -56,7 +57,7 @@ nlohmann::ordered_json entriesOf(const std::string& kind, const std::string& wor
     }
     return entries;
   }
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   if (kind == "spaces") {
     for (const spectral::ColourSpace& space : library.colourSpaces()) {
       entries.push_back(

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "library.h"
 #include "metamer/spectral/fluorescence.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
@@ -101,7 +102,8 @@ std::vector<sip::Pair> pairsAlready(const std::string& file, const spectral::Dat
 /// The reflectance that looks like a fluorescent surface under each of some lights.
 sip::Pair fluorescentPair(const AddArguments& arguments, const spectral::DataLibrary& library) {
   const std::filesystem::path file = spectral::pathOf(*arguments.fluorescent);
-  const spectral::FluorescentSamples surface = spectral::samplesOf(spectral::readFluorescence(file));
+  const spectral::FluorescentSamples surface =
+      spectral::samplesOf(spectral::readFluorescence(file, library.pictures()));
   const auto curves = library.observer("CIE 1931 2").onDomain();
   std::vector<sip::PairColour> colours;
   for (const std::string& light : arguments.under) {
@@ -133,7 +135,7 @@ void add(const AddArguments& arguments) {
     throw InputError(arguments.file, "extension", "", "must be .csv");
   }
   spectral::requireWritable(spectral::pathOf(arguments.file));
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   std::vector<sip::Pair> pairs = pairsAlready(arguments.file, library);
   std::vector<sip::Pair> added;
   for (const std::string& from : arguments.from) {
@@ -214,7 +216,7 @@ Json jsonOf(const sip::Recipe& recipe, const std::vector<sip::CheckedPair>& chec
 }
 
 void check(const CheckArguments& arguments) {
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   const sip::Recipe recipe = recipeOf(arguments, library);
   const sip::TransformSpec spec = sip::resolve(recipe, library);
   if (spec.scene.kind != sip::ReferenceScene::Kind::Pairs) {

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iostream>
 
-#include "exr_channels.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/interruption.h"
 #include "metamer/spectral/message_line.h"
@@ -121,7 +120,6 @@ bool isQuiet() {
 
 int run(int argumentCount, char** arguments, const std::function<void(CLI::App&)>& addCommands) {
   spectral::endCleanlyBySignals("lutgen");
-  spectral::readSpectraFromExr();
   // What OpenColorIO would say comes as an exception as well.
   OCIO_NAMESPACE::SetLoggingLevel(OCIO_NAMESPACE::LOGGING_LEVEL_NONE);
   CLI::App application("Colour transforms from spectra: LUT files and pictures under another light.", "lutgen");

@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "fluorescence.h"
+#include "library.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
@@ -80,7 +81,7 @@ class Packer {
  public:
   explicit Packer(const PackOptions& options)
       : m_options(options),
-        m_library(spectral::DataLibrary::openDefault()),
+        m_library(openLibrary()),
         m_isLight(options.use == "light"),
         m_originals(originalsOf(options, m_library)),
         m_storage(m_library),
@@ -242,7 +243,7 @@ double sampleAt(const DomainSamples& samples, int place, int step, bool isLight)
 
 void convert(const std::string& file, const std::string& output, int step) {
   const StoredSet set = spectral::readStorage(spectral::pathOf(file));
-  const spectral::SpectrumStorage storage(spectral::DataLibrary::openDefault());
+  const spectral::SpectrumStorage storage(openLibrary());
   std::string text = "wavelength_nm";
   std::vector<DomainSamples> spectra;
   for (const StoredSet::Entry& entry : set.entries) {

@@ -103,8 +103,10 @@ std::vector<ChannelValue> readPart(Imf::MultiPartInputFile& input, int part, con
   return values;
 }
 
-std::vector<ChannelValue> readChannels(const std::string& file, const std::optional<PicturePlace>& place,
-                                       const std::function<bool(const std::string& channel)>& isWanted) {
+}  // namespace
+
+std::vector<ChannelValue> readExrChannels(const std::string& file, const std::optional<PicturePlace>& place,
+                                          const std::function<bool(const std::string& channel)>& isWanted) {
   requireFile(file);
   try {
     Imf::MultiPartInputFile input(file.c_str(), 0);
@@ -120,12 +122,6 @@ std::vector<ChannelValue> readChannels(const std::string& file, const std::optio
   } catch (const std::exception&) {
     throw InputError(file, "OpenEXR", "", "is damaged, cut short or no OpenEXR picture; write it again");
   }
-}
-
-}  // namespace
-
-void readSpectraFromExr() {
-  setPictureChannelReader(readChannels);
 }
 
 }  // namespace metamer::spectral

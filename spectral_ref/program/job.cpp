@@ -5,6 +5,7 @@
 
 #include "checked_words.h"
 #include "commands.h"
+#include "exr_channels.h"
 #include "farm_job.h"
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral/input_error.h"
@@ -95,7 +96,7 @@ void writeJob(const JobArguments& arguments) {
   words.insert(words.end(), arguments.renderWords.begin(), arguments.renderWords.end());
   farm::requireUnderstood(addRender, words);
   // What a scene lacks is better known before the farm starts.
-  readScene(spectral::pathOf(arguments.scene), spectral::DataLibrary::openDefault());
+  readScene(spectral::pathOf(arguments.scene), spectral::DataLibrary::openDefault(spectral::readExrChannels));
 
   const std::filesystem::path scene = spectral::pathOf(arguments.scene);
   using Flow = farm::JobFile::Flow;

@@ -7,7 +7,6 @@
 
 #include "checked_words.h"
 #include "commands.h"
-#include "exr_channels.h"
 #include "metamer/spectral/interruption.h"
 #include "metamer/spectral/message_line.h"
 
@@ -54,7 +53,6 @@ void warn(const std::string& message) {
 
 int main(int argumentCount, char** arguments) {
   metamer::spectral::endCleanlyBySignals("spectral_ref");
-  metamer::spectral::readSpectraFromExr();
   std::vector<std::string> taskWords = metamer::farm::takeTaskWords(argumentCount, arguments);
   CLI::App application("Reference spectral path tracer: scenes to pictures with error bars.", "spectral_ref");
   application.set_version_flag("--version", std::string("spectral_ref ") + METAMER_VERSION);

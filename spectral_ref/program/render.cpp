@@ -11,6 +11,7 @@
 
 #include "build_identity.h"
 #include "commands.h"
+#include "exr_channels.h"
 #include "guide_dump.h"
 #include "metamer/spectral/data_library.h"
 #include "metamer/spectral/input_error.h"
@@ -91,7 +92,7 @@ class RenderJob {
   explicit RenderJob(const RenderArguments& arguments)
       : m_arguments(arguments),
         m_checkpoint(checkOutput(arguments)),
-        m_library(spectral::DataLibrary::openDefault()),
+        m_library(spectral::DataLibrary::openDefault(spectral::readExrChannels)),
         m_scene(readScene(spectral::pathOf(arguments.scene), m_library)) {
     for (const std::string& warning : m_scene.warnings) {
       warn(warning);

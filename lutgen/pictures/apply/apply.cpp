@@ -6,6 +6,7 @@
 #include "apply/relight.h"
 #include "apply/sequence.h"
 #include "apply/transform.h"
+#include "library.h"
 #include "metamer/spectral/formatted.h"
 #include "picture_commands.h"
 #include "positive_number.h"
@@ -57,7 +58,7 @@ void apply(ApplyOptions options) {
   const std::string& input = options.pictures[0];
   const std::string& output = options.pictures[1];
   const std::vector<Frame> frames = framesOf(input, output, options.frames);
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   const auto config = ocio::ConfigSource::environment();
   Relighter relighter(input, options.picture, library, config);
   const std::uint64_t bytes = relighter.check(frames[0].input, frames[0].output);

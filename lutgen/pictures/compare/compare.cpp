@@ -8,6 +8,7 @@
 
 #include "compare/compare_report.h"
 #include "compare/heat_map.h"
+#include "library.h"
 #include "metamer/ocio/certificate_record.h"
 #include "metamer/ocio/compared_transform.h"
 #include "metamer/ocio/config_writer.h"
@@ -120,9 +121,7 @@ std::filesystem::path certificateFileOf(const std::string& name, const std::stri
 class Comparer {
  public:
   explicit Comparer(const CompareArguments& arguments)
-      : m_arguments(arguments),
-        m_library(spectral::DataLibrary::openDefault()),
-        m_config(ocio::ConfigSource::environment()) {}
+      : m_arguments(arguments), m_library(openLibrary()), m_config(ocio::ConfigSource::environment()) {}
 
   CompareReport transforms() {
     const std::optional<sip::Recipe> recipeA = recipeOf(m_arguments.a);

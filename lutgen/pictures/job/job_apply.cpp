@@ -6,6 +6,7 @@
 #include "apply/sequence.h"
 #include "apply/transform.h"
 #include "job/job.h"
+#include "library.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
@@ -64,7 +65,7 @@ void write(const Arguments& arguments) {
   requireUnderstood(addApply, words);
   TransformRequest request;
   request.transform = arguments.transform;
-  appliedTransform(request, spectral::DataLibrary::openDefault(), ocio::ConfigSource::environment());
+  appliedTransform(request, openLibrary(), ocio::ConfigSource::environment());
 
   const std::filesystem::path transform = spectral::pathOf(arguments.transform);
   const std::filesystem::path input = spectral::pathOf(arguments.pictures[0]);

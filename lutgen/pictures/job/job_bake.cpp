@@ -3,6 +3,7 @@
 #include <set>
 
 #include "job/job.h"
+#include "library.h"
 #include "metamer/ocio/lut_writer.h"
 #include "metamer/ocio/working_space.h"
 #include "metamer/sip/recipe.h"
@@ -25,7 +26,7 @@ struct Arguments {
 
 /// Recipes' files and the looks' names. @throws spectral::InputError: what a recipe lacks, two looks of one name
 std::vector<farm::TaskValue> looksOf(const std::vector<std::string>& recipes) {
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   const auto config = ocio::ConfigSource::environment();
   std::vector<farm::TaskValue> values = {{"Recipe", {}, true}, {"Look", {}, false}};
   std::set<std::string> names;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include "library.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
@@ -37,7 +38,7 @@ void report(const ReportArguments& arguments) {
   if (file.isStream()) {
     standardOutput();
   }
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   const auto config = ocio::ConfigSource::environment();
   PageContents contents;
   contents.recipe = sip::readRecipe(spectral::pathOf(arguments.recipe));

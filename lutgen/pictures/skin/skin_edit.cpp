@@ -6,6 +6,7 @@
 
 #include "apply/frame_report.h"
 #include "apply/picture_clues.h"
+#include "library.h"
 #include "metamer/skin/skin_colours.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
@@ -42,7 +43,7 @@ class Editing {
   Editing(const EditOptions& options, std::vector<SkinStep> steps)
       : m_options(options),
         m_steps(std::move(steps)),
-        m_library(spectral::DataLibrary::openDefault()),
+        m_library(openLibrary()),
         m_config(ocio::ConfigSource::environment()) {
     if (!options.outputSpace.empty()) {
       m_to = pictureSpaceNamed(options.outputSpace, "--output-space", m_library, m_config);

@@ -7,6 +7,7 @@
 #include "apply/frame_report.h"
 #include "apply/frames.h"
 #include "apply/picture_clues.h"
+#include "library.h"
 #include "metamer/skin/skin_estimator.h"
 #include "metamer/skin/skin_network.h"
 #include "metamer/spectral/formatted.h"
@@ -73,9 +74,7 @@ struct Findings {
 class Estimation {
  public:
   explicit Estimation(const EstimateOptions& options)
-      : m_options(options),
-        m_library(spectral::DataLibrary::openDefault()),
-        m_config(ocio::ConfigSource::environment()) {
+      : m_options(options), m_library(openLibrary()), m_config(ocio::ConfigSource::environment()) {
     m_capture = options.capture.orElse(kUsualCapture);
     if (!options.pictureSpace.empty()) {
       m_stated = pictureSpaceNamed(options.pictureSpace, "--picture-space", m_library, m_config);

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "apply/picture_clues.h"
+#include "library.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/naming_file.h"
@@ -50,7 +51,7 @@ void sample(const SampleOptions& options) {
   }
   requireFormat(options.picture, false);
   requireFormat(options.spectralPicture, true);
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   const spectral::ColourSpace space = library.colourSpace(options.space);
   if (space.encoding) {
     throw InputError("--space", "space", options.space, "is a log; name a linear one: lutgen list spaces");

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <memory>
 
+#include "library.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/naming_file.h"
@@ -145,7 +146,7 @@ void solveRows(const stage::EnvironmentDriver& driver, const stage::LatLong& lay
 }
 
 void drive(const EnvironmentOptions& options) {
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   if (options.output.empty() && options.lightsOutput.empty()) {
     throw CLI::ValidationError("-o", "or --lights-output is needed");
   }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "library.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/naming_file.h"
@@ -241,7 +242,7 @@ void match(const MatchOptions& options) {
   for (const std::string& file : {options.output, options.report, options.figure}) {
     spectral::requireWritable(spectral::pathOf(file));
   }
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   const std::vector<MatchAnswer> answers = answersOf(options, library);
   const bool isList = answers.size() > 1 || options.filters.size() > 1 || options.targets.size() > 1;
   if (!options.figure.empty()) {

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "library.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/naming_file.h"
@@ -48,7 +49,7 @@ Eigen::Vector2d cornerOf(const std::string& text) {
 void sample(const SampleOptions& options) {
   spectral::requireWritable(spectral::pathOf(options.output));
   spectral::requireWritable(spectral::pathOf(options.checkPicture));
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   stage::StageLayout layout;
   layout.columns = options.columns;
   layout.rows = options.rows;

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "library.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/naming_file.h"
@@ -155,7 +156,7 @@ std::vector<spectral::DomainSamples> samplesOf(const std::vector<spectral::Spect
 
 void select(const SelectOptions& options) {
   spectral::requireWritable(spectral::pathOf(options.output));
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   const stage::Fixture fixture = stage::readFixture(options.emitters, library);
   const std::vector<Target> targets = targetsOf(options, library);
   const auto materials = samplesOf(library.reflectances(options.reflectances).samples);

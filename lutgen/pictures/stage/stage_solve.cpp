@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "library.h"
 #include "metamer/ocio/stage_config.h"
 #include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
@@ -73,7 +74,7 @@ void solve(const SolveOptions& options) {
                                   options.checkPictures.empty() ? "" : options.checkPictures + "_target.png"}) {
     spectral::requireWritable(spectral::pathOf(file));
   }
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   stage::StageDescription description = stage::readStage(spectral::pathOf(options.stage));
   if (!options.priority.empty()) {
     description.skinPriority = stage::skinWeightFrom(options.priority);

@@ -11,6 +11,7 @@
 #include "apply/picture_space.h"
 #include "exr/exr_reader.h"
 #include "exr/exr_strips.h"
+#include "library.h"
 #include "metamer/sip/scene_uplift.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
@@ -216,7 +217,7 @@ void uplift(const UpliftOptions& options) {
                      "holds no spectra; write .exr");
   }
   const std::vector<int> wavelengths = wavelengthsFrom(options.wavelengths);
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   std::unique_ptr<spectral::Uplift> method;
   try {
     method = sip::makeUplift(options.method, library);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "library.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
 #include "metamer/validation/validation.h"
@@ -93,7 +94,7 @@ void print(const nlohmann::ordered_json& json) {
 }
 
 void run(const ValidateArguments& arguments) {
-  const auto library = spectral::DataLibrary::openDefault();
+  const auto library = openLibrary();
   const sip::Recipe recipe = sip::readRecipe(spectral::pathOf(arguments.recipe));
   // The place first: what cannot be written is not worth the renders.
   std::optional<spectral::PendingFile> file;

@@ -123,6 +123,7 @@ std::string singular(const std::string& group) {
 
 struct DataLibrary::State {
   std::filesystem::path folder;
+  PictureChannelReader pictures;
   /// A deque, because a table's mutex cannot move.
   std::deque<LoadedTable> tables;
   DataWords words;
@@ -195,7 +196,7 @@ struct DataLibrary::State {
     if (!looksLikeSpectralFile(name)) {
       return std::nullopt;
     }
-    return readSpectralFile(baseFolder / pathOf(name), quantity);
+    return readSpectralFile(baseFolder / pathOf(name), quantity, pictures);
   }
 
   /// The spectrum of a table that has a name a column.
@@ -204,9 +205,10 @@ struct DataLibrary::State {
     return place ? std::optional(place->table->spectra()[place->index]) : std::nullopt;
   }
 
-  static std::shared_ptr<State> read(const std::filesystem::path& folder) {
+  static std::shared_ptr<State> read(const std::filesystem::path& folder, PictureChannelReader pictures) {
     auto state = std::make_shared<State>();
     state->folder = folder;
+    state->pictures = std::move(pictures);
     for (ManifestTable& table : readManifest(folder)) {
       state->tables.emplace_back(folder, std::move(table));
     }
@@ -217,17 +219,17 @@ struct DataLibrary::State {
 
 DataLibrary::DataLibrary(std::shared_ptr<const State> state) : m_state(std::move(state)) {}
 
-DataLibrary DataLibrary::open(const std::filesystem::path& folder) {
-  return DataLibrary(State::read(folder));
+DataLibrary DataLibrary::open(const std::filesystem::path& folder, PictureChannelReader pictures) {
+  return DataLibrary(State::read(folder, std::move(pictures)));
 }
 
-DataLibrary DataLibrary::openDefault() {
+DataLibrary DataLibrary::openDefault(PictureChannelReader pictures) {
   const std::filesystem::path named = pathOf(environmentValue("METAMER_DATA").value_or(""));
   const std::filesystem::path beside = programFolder().parent_path() / "share" / "metamer" / "data";
   std::error_code error;
   for (const std::filesystem::path& folder : {named, beside}) {
     if (!folder.empty() && std::filesystem::exists(folder / "manifest.json", error)) {
-      return open(folder);
+      return open(folder, std::move(pictures));
     }
     // A folder that somebody named is not passed over in silence.
     if (!folder.empty() && folder == named) {
@@ -236,6 +238,10 @@ DataLibrary DataLibrary::openDefault() {
   }
   throw InputError("data folder", "METAMER_DATA", utf8(named),
                    "no manifest.json there or in " + utf8(beside) + "; set METAMER_DATA to metamer's data folder");
+}
+
+const PictureChannelReader& DataLibrary::pictures() const {
+  return m_state->pictures;
 }
 
 std::vector<std::string> DataLibrary::illuminantNames() const {

@@ -131,10 +131,11 @@ std::string columnsText(const std::vector<Spectrum>& spectra) {
   return joined(names);
 }
 
-std::vector<Spectrum> readSpectralFile(const std::filesystem::path& fileOrColumn, SpectralQuantity quantity) {
+std::vector<Spectrum> readSpectralFile(const std::filesystem::path& fileOrColumn, SpectralQuantity quantity,
+                                       const PictureChannelReader& pictures) {
   const auto [where, column] = spectralFileName(utf8(fileOrColumn));
   if (extensionOf(where) == kPicture) {
-    return readSpectralPicture(where, column, quantity);
+    return readSpectralPicture(where, column, quantity, pictures);
   }
   std::vector<Spectrum> spectra = readWholeFile(where, quantity);
   return column.empty() ? spectra : std::vector<Spectrum>{columnNamed(column, spectra, where)};

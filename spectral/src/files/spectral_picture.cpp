@@ -17,11 +17,6 @@ namespace {
 constexpr double kLightSpeed = 299792458.0;  // m/s
 constexpr double kNmPerMetre = 1e9;
 
-PictureChannelReader& channelReader() {
-  static PictureChannelReader reader;
-  return reader;
-}
-
 const char* prefixOf(SpectralQuantity quantity) {
   return quantity == SpectralQuantity::SpectralPowerDistribution ? "S0" : "T";
 }
@@ -57,10 +52,6 @@ std::optional<PicturePlace> placeOf(const std::string& text, const std::string& 
 
 }  // namespace
 
-void setPictureChannelReader(PictureChannelReader reader) {
-  channelReader() = std::move(reader);
-}
-
 std::optional<double> channelWavelengthNm(const std::string& channel, SpectralQuantity quantity) {
   const std::string prefix = prefixOf(quantity);
   std::size_t at = channel.rfind(prefix + ".");
@@ -95,21 +86,23 @@ std::string channelOfWavelength(double nm, SpectralQuantity quantity) {
 }
 
 std::vector<ChannelValue> readPictureChannels(const std::string& file, const std::string& place,
-                                              const std::function<bool(const std::string& channel)>& isWanted) {
-  if (!channelReader()) {
+                                              const std::function<bool(const std::string& channel)>& isWanted,
+                                              const PictureChannelReader& pictures) {
+  if (!pictures) {
     throw InputError(file, "extension", ".exr",
                      "pictures are read by the programs lutgen and spectral_ref alone; give the spectrum as CSV here");
   }
-  return channelReader()(file, placeOf(place, file), isWanted);
+  return pictures(file, placeOf(place, file), isWanted);
 }
 
-std::vector<Spectrum> readSpectralPicture(const std::string& file, const std::string& place,
-                                          SpectralQuantity quantity) {
+std::vector<Spectrum> readSpectralPicture(const std::string& file, const std::string& place, SpectralQuantity quantity,
+                                          const PictureChannelReader& pictures) {
   if (quantity == SpectralQuantity::Sensitivity) {
     throw InputError(file, "quantity", "sensitivity", "is not what a picture holds; give a table");
   }
   const std::vector<ChannelValue> channels = readPictureChannels(
-      file, place, [&](const std::string& channel) { return channelWavelengthNm(channel, quantity).has_value(); });
+      file, place, [&](const std::string& channel) { return channelWavelengthNm(channel, quantity).has_value(); },
+      pictures);
   if (channels.size() < 2) {
     const std::string prefix = prefixOf(quantity);
     throw InputError(file, "channels", "",

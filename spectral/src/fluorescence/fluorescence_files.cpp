@@ -153,7 +153,8 @@ std::vector<std::string_view> wordsOf(std::string_view line) {
   return words;
 }
 
-Reradiation readBispectralPicture(const std::string& file, const std::string& place) {
+Reradiation readBispectralPicture(const std::string& file, const std::string& place,
+                                  const PictureChannelReader& pictures) {
   std::map<std::pair<double, double>, double> values;
   std::set<double> excitation;
   std::set<double> emission;
@@ -166,8 +167,8 @@ Reradiation readBispectralPicture(const std::string& file, const std::string& pl
   // Names carry wavelengths to six digits, and units of them are converted.
   const auto rounded = [](double nm) { return std::round(nm * 1e4) * 1e-4; };
   bool isBispectral = false;
-  for (const ChannelValue& channel :
-       readPictureChannels(file, place, [&](const std::string& name) { return pairOf(name).has_value(); })) {
+  for (const ChannelValue& channel : readPictureChannels(
+           file, place, [&](const std::string& name) { return pairOf(name).has_value(); }, pictures)) {
     const auto [from, to] = *pairOf(channel.name);
     isBispectral = isBispectral || from != to;
     values[{rounded(from), rounded(to)}] = channel.value;
@@ -281,11 +282,11 @@ Reradiation readBfc(const std::string& text, const std::string& where) {
   return {where, std::move(axes->excitation), std::move(axes->emission), std::move(factors)};
 }
 
-Fluorescence readFluorescence(const std::filesystem::path& file) {
+Fluorescence readFluorescence(const std::filesystem::path& file, const PictureChannelReader& pictures) {
   const auto [where, place] = spectralFileName(utf8(file));
   const std::string extension = lowerCase(utf8(pathOf(where).extension()));
   if (extension == ".exr") {
-    return readBispectralPicture(where, place);
+    return readBispectralPicture(where, place, pictures);
   }
   if (extension == ".bfc") {
     return readBfc(readTextFile(pathOf(where)), where);

@@ -31,15 +31,14 @@ spectral::FluorescentSamples samplesIn(const YamlMap& section, const Give& give)
   }
 }
 
-spectral::FluorescentSamples samplesOfFile(const YamlMap& section, const YamlValue& file,
-                                           const std::filesystem::path& folder) {
+spectral::FluorescentSamples samplesOfFile(const YamlMap& section, const YamlValue& file, const SceneSpectra& spectra) {
   for (const char* key : {"reflectance", "excitation", "emission", "quantum_yield"}) {
     if (const auto other = section.find(key)) {
       throw other->error("", "stands in the file; leave it out");
     }
   }
-  const std::filesystem::path path = folder / spectral::pathOf(file.text());
-  return samplesIn(section, [&] { return spectral::readFluorescence(path); });
+  const std::filesystem::path path = spectra.folder() / spectral::pathOf(file.text());
+  return samplesIn(section, [&] { return spectral::readFluorescence(path, spectra.library().pictures()); });
 }
 
 spectral::FluorescentSamples samplesOfCurves(const YamlMap& section, SceneSpectra& spectra) {
@@ -63,7 +62,7 @@ Material readFluorescent(const YamlValue& value, SceneSpectra& spectra, Scene& s
   const YamlMap section(value, {"file", "reflectance", "excitation", "emission", "quantum_yield"});
   const auto file = section.find("file");
   spectral::FluorescentSamples samples =
-      file ? samplesOfFile(section, *file, spectra.folder()) : samplesOfCurves(section, spectra);
+      file ? samplesOfFile(section, *file, spectra) : samplesOfCurves(section, spectra);
   Material material;
   material.colour = spectra.add(samples.reflectance);
   material.kind = Material::Kind::Diffuse;

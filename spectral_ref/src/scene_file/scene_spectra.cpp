@@ -220,7 +220,8 @@ ExcitationSamples SceneSpectra::read(const YamlValue& definition, Use use) const
               spectral::readOpticalConstant(spectral::pathOf(path), spectral::OpticalConstant::Extinction));
         case Use::Dye:
           return onExcitation(
-              spectral::readSpectralFile(spectral::pathOf(path), SpectralQuantity::Sensitivity).front());
+              spectral::readSpectralFile(spectral::pathOf(path), SpectralQuantity::Sensitivity, m_library.pictures())
+                  .front());
         case Use::Reflectance:
           break;
       }

@@ -116,8 +116,9 @@ std::vector<Emitter> emittersFrom(const std::string& text, const spectral::DataL
   }
   const std::filesystem::path file = spectral::pathOf(text);
   std::vector<Emitter> emitters;
-  for (Spectrum& spectrum : spectral::readSpectralFile(file.is_absolute() ? file : folder / file,
-                                                       spectral::SpectralQuantity::SpectralPowerDistribution)) {
+  for (Spectrum& spectrum :
+       spectral::readSpectralFile(file.is_absolute() ? file : folder / file,
+                                  spectral::SpectralQuantity::SpectralPowerDistribution, library.pictures())) {
     emitters.push_back({std::move(spectrum), false});
   }
   return emitters;

@@ -36,19 +36,18 @@ TEST(SpectralPictureTest, ChannelsOfTheLayout) {
 }
 
 TEST(SpectralPictureTest, ReadsByTheProgramsReader) {
-  setPictureChannelReader([](const std::string& file, const std::optional<PicturePlace>& place, const auto& isWanted) {
+  const auto reader = [](const std::string& file, const std::optional<PicturePlace>& place, const auto& isWanted) {
     EXPECT_EQ(file, "sky.exr");
     EXPECT_FALSE(isWanted("R"));
     EXPECT_TRUE(isWanted("S0.500nm"));
     const double gain = place ? 10.0 * place->x + place->y : 1.0;
     return std::vector<ChannelValue>{{"S0.600nm", gain}, {"S0.500nm", 0.5 * gain}};
-  });
-  const auto mean = readSpectralFile("sky.exr", Quantity::SpectralPowerDistribution);
+  };
+  const auto mean = readSpectralFile("sky.exr", Quantity::SpectralPowerDistribution, reader);
   ASSERT_EQ(mean.size(), 1U);
   EXPECT_EQ(mean[0].name(), "sky");
   EXPECT_DOUBLE_EQ(mean[0].at(550.0), 0.75);
-  EXPECT_DOUBLE_EQ(readSpectralFile("sky.exr:3,-1", Quantity::SpectralPowerDistribution)[0].at(600.0), 29.0);
-  setPictureChannelReader({});
+  EXPECT_DOUBLE_EQ(readSpectralFile("sky.exr:3,-1", Quantity::SpectralPowerDistribution, reader)[0].at(600.0), 29.0);
   const std::string none = errorOf([] { readSpectralFile("sky.exr", Quantity::SpectralPowerDistribution); });
   EXPECT_NE(none.find("lutgen"), std::string::npos) << none;
 }

@@ -150,7 +150,7 @@ TEST(FluorescenceTest, ReadsBispectralPictures) {
     EXPECT_FALSE(channelPairNm(other)) << other;
   }
   bool isWhole = true;
-  setPictureChannelReader([&](const std::string&, const std::optional<PicturePlace>& place, const auto& isWanted) {
+  const auto reader = [&](const std::string&, const std::optional<PicturePlace>& place, const auto& isWanted) {
     EXPECT_TRUE(isWanted("T.400,000000nm"));
     EXPECT_FALSE(isWanted("S0.400,000000nm"));
     const double gain = place ? 0.5 : 1.0;
@@ -163,20 +163,19 @@ TEST(FluorescenceTest, ReadsBispectralPictures) {
       values.push_back({"T.400,000000nm.600,000000nm", 0.05});
     }
     return values;
-  });
-  const Reradiation read = matrixOf(readFluorescence("paint.exr"));
+  };
+  const Reradiation read = matrixOf(readFluorescence("paint.exr", reader));
   EXPECT_EQ(read.emissionNm(), (std::vector<double>{400, 500, 600}));
   EXPECT_EQ(read.factors()(2, 0), 0.05);
   EXPECT_EQ(read.factors()(0, 0), 0.2);
   EXPECT_EQ(read.factors()(0, 2), 0.0);
-  EXPECT_EQ(matrixOf(readFluorescence("paint.exr:3,4")).factors()(0, 0), 0.1);
+  EXPECT_EQ(matrixOf(readFluorescence("paint.exr:3,4", reader)).factors()(0, 0), 0.1);
   isWhole = false;
-  EXPECT_REFUSED("400 to 600 nm", readFluorescence("paint.exr"));
-  setPictureChannelReader([](const std::string&, const auto&, const auto&) {
+  EXPECT_REFUSED("400 to 600 nm", readFluorescence("paint.exr", reader));
+  const auto plain = [](const std::string&, const auto&, const auto&) {
     return std::vector<ChannelValue>{{"T.400,000000nm", 0.2}, {"T.500,000000nm", 0.4}};
-  });
-  EXPECT_REFUSED("not bispectral", readFluorescence("paint.exr"));
-  setPictureChannelReader({});
+  };
+  EXPECT_REFUSED("not bispectral", readFluorescence("paint.exr", plain));
   EXPECT_REFUSED("lutgen", readFluorescence("paint.exr"));
   EXPECT_REFUSED("extension", readFluorescence("paint.png"));
 }

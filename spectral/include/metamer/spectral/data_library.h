@@ -9,6 +9,7 @@
 #include "metamer/spectral/colour_space.h"
 #include "metamer/spectral/observer.h"
 #include "metamer/spectral/pixel_set.h"
+#include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/spectrum.h"
 
 namespace metamer::spectral {
@@ -37,16 +38,17 @@ struct NameDescription {
 /// The measured tables of data/, read on demand. Immutable and safe to share between threads.
 ///
 /// Names are matched without regard to case. A NAME is looked up in the tables first; text with a path separator or
-/// an extension that readSpectralFile takes is a file, relative to `baseFolder`; FILE:COLUMN is one curve of it.
+/// an extension that readSpectralFile takes is a file, relative to `baseFolder`; FILE:COLUMN is one curve of it. A
+/// program that reads pictures gives its reader on opening: then spectral .exr are such files.
 class DataLibrary {
  public:
   /// Opens a data folder by its manifest.json.
   /// @throws InputError: no manifest, another version, a table without unit or licence
-  static DataLibrary open(const std::filesystem::path& folder);
+  static DataLibrary open(const std::filesystem::path& folder, PictureChannelReader pictures = {});
 
   /// Finds the data folder: $METAMER_DATA, else ../share/metamer/data beside the running program's folder.
   /// @throws InputError naming both places
-  static DataLibrary openDefault();
+  static DataLibrary openDefault(PictureChannelReader pictures = {});
 
   /// Names a user can give, in table order.
   std::vector<std::string> illuminantNames() const;
@@ -78,6 +80,9 @@ class DataLibrary {
   /// The names of a group that a text finds: all its words stand in the name, its description or its words, without
   /// regard to case. In table order.
   std::vector<std::string> namesFound(const std::string& group, const std::string& text) const;
+
+  /// The reader that it was opened with, for readSpectralFile and its kin; empty without one.
+  const PictureChannelReader& pictures() const;
 
   /// Provenance of a name as the calls above resolve it. `group` is the manifest's ("illuminants", ...).
   Provenance provenance(const std::string& group, const std::string& nameOrFile) const;

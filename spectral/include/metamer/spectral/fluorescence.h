@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "metamer/spectral/reradiation.h"
+#include "metamer/spectral/spectral_picture.h"
 
 /// Fluorescent surfaces in three curves and a number, and the files of both forms.
 namespace metamer::spectral {
@@ -48,8 +49,9 @@ FluorescentSamples samplesOf(const Fluorescence& surface);
 ///   .bfc            Labsphere's BFC-450: the same behind a line of six whole numbers, up to EOD
 ///   .exr            JCGT 2021: T.380,000000nm.400,000000nm from 380 to 400 nm, T.400,000000nm the diagonal; a pixel or
 ///                   the mean
+/// @param pictures  reads .exr; without it they are refused
 /// @throws InputError: what Reradiation and samplesOf() refuse, an empty or missing cell or channel, no number
-Fluorescence readFluorescence(const std::filesystem::path& file);
+Fluorescence readFluorescence(const std::filesystem::path& file, const PictureChannelReader& pictures = {});
 
 /// The readers on text already in memory (`where` is what messages call it).
 Fluorescence readFluorescenceTable(const std::string& text, const std::string& where);

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/spectrum.h"
 
 namespace metamer::spectral {
@@ -33,12 +34,13 @@ bool looksLikeSpectralFile(const std::string& nameOrFile);
 ///   .sp .ti3 .ccss .cgats            CGATS, as Argyll and i1Profiler write it; read under the extensions above as well
 ///   .spdx                            IES TM-27-14 XML
 ///   .json                            rawtoaces measurement JSON
-///   .exr                             a spectral picture, its mean or FILE:x,y, in programs that read pictures
-///                                    (spectral_picture.h)
+///   .exr                             a spectral picture, its mean or FILE:x,y, by the caller's reader of pictures
 /// @param file      FILE or FILE:COLUMN, see SpectralFileName
 /// @param quantity  what the caller asks for; a file that states another quantity is refused
+/// @param pictures  reads .exr; without it they are refused
 /// @throws InputError naming the file, the line or field, the value and the remedy; the columns where COLUMN is none
-std::vector<Spectrum> readSpectralFile(const std::filesystem::path& file, SpectralQuantity quantity);
+std::vector<Spectrum> readSpectralFile(const std::filesystem::path& file, SpectralQuantity quantity,
+                                       const PictureChannelReader& pictures = {});
 
 /// The curves' names, for a message: "warm, cool". Long lists are cut.
 std::string columnsText(const std::vector<Spectrum>& spectra);

@@ -27,15 +27,14 @@ using PictureChannelReader =
     std::function<std::vector<ChannelValue>(const std::string& file, const std::optional<PicturePlace>& place,
                                             const std::function<bool(const std::string& channel)>& isWanted)>;
 
-/// This library reads no pictures. A program that does gives the reader when it starts, before other threads: then .exr
-/// is a spectral file (readSpectralFile). Without one such files are refused.
-void setPictureChannelReader(PictureChannelReader reader);
-
-/// Reads by that reader the channels of FILE whose names `isWanted`.
-/// @param place  "x,y" of a pixel, or "" for the mean of all
+/// Reads the channels of FILE whose names `isWanted`. This library reads no pictures: a program that does gives its
+/// reader, to the data library (DataLibrary::openDefault) or to a call.
+/// @param place     "x,y" of a pixel, or "" for the mean of all
+/// @param pictures  may be empty
 /// @throws InputError: no reader, a place that is none, what the reader refuses
 std::vector<ChannelValue> readPictureChannels(const std::string& file, const std::string& place,
-                                              const std::function<bool(const std::string& channel)>& isWanted);
+                                              const std::function<bool(const std::string& channel)>& isWanted,
+                                              const PictureChannelReader& pictures);
 
 /// Wavelength of a channel in the layout of Fichet et al., JCGT 2021: "S0.550,000000nm" of a light's radiance,
 /// "T.550,000000nm" of a reflectance or transmittance; layers ("left.S0.550nm"), units of m, um or Hz with their
@@ -48,6 +47,7 @@ std::string channelOfWavelength(double nm, SpectralQuantity quantity);
 
 /// The spectrum of a picture's pixel ("x,y"), or the mean of all ("").
 /// @throws InputError: no reader, a place that is none, no channels of the quantity, what readers refuse
-std::vector<Spectrum> readSpectralPicture(const std::string& file, const std::string& place, SpectralQuantity quantity);
+std::vector<Spectrum> readSpectralPicture(const std::string& file, const std::string& place, SpectralQuantity quantity,
+                                          const PictureChannelReader& pictures);
 
 }  // namespace metamer::spectral
