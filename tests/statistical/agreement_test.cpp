@@ -135,7 +135,7 @@ class AgreementTest : public testing::TestWithParam<AgreementCase> {};
 TEST_P(AgreementTest, MeansAndVariances) {
   const Scene scene = sceneOf(GetParam().scene);
   const std::vector<Area>& areas = GetParam().areas;
-  constexpr std::uint64_t kSamples = 128;
+  constexpr std::uint64_t kSamples = 64;
   const std::vector<Spread> plain = spreadOver(scene, {}, kSamples, areas);
   const struct {
     const char* name;
