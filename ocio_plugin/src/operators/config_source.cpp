@@ -23,6 +23,9 @@ OCIO::ConstConfigRcPtr read(const std::string& name, const std::string& where, c
                             const std::string& remedy) {
   std::error_code none;
   if (!isBuiltInConfig(name) && !std::filesystem::is_regular_file(spectral::pathOf(name), none)) {
+    if (std::filesystem::exists(spectral::pathOf(name), none)) {
+      throw spectral::InputError(where, "config", value, "is a folder, device or pipe; " + remedy);
+    }
     throw spectral::MissingFileError(where, "config", value, "there is no such file; " + remedy);
   }
   try {

@@ -70,8 +70,9 @@ PreparedPipeline prepare(const Pipeline& pipeline, const std::vector<spectral::D
   const double unfiltered = level(respond(bare.light, bare.curves), kind);
   const double filtered = level(respond(prepared.light, prepared.curves), kind);
   if (!(unfiltered > 0.0)) {
-    throw InputError(pipeline.illuminant.name(), "illuminant", pipeline.observer.name,
-                     "this light gives this observer nothing between 380 and 780 nm");
+    throw InputError(
+        "", "illuminant", pipeline.illuminant.name(),
+        "gives the observer " + pipeline.observer.name + " nothing between 380 and 780 nm; name another light");
   }
   if (!(filtered > 1e-12 * unfiltered)) {
     throw InputError(describe(pipeline), "filters", std::to_string(pipeline.filters.size()),

@@ -90,10 +90,13 @@ std::optional<WavelengthCell> wavelengthCell(std::string_view quotedCell, char s
 
 double nmPerUnitIn(std::string_view text) {
   const std::string heading = lowerCase(text);
-  return hasOneOf(heading, kMicrometre)  ? 1000.0
-         : hasOneOf(heading, kAngstrom)  ? 0.1
-         : hasOneOf(heading, kNanometre) ? 1.0
-                                         : 0.0;
+  // A bare letter is a unit in brackets alone, and behind a word for wavelengths.
+  const bool isInA = namesWavelength(text) &&
+                     (text.find("(A)") != std::string_view::npos || text.find("[A]") != std::string_view::npos);
+  return hasOneOf(heading, kMicrometre)          ? 1000.0
+         : isInA || hasOneOf(heading, kAngstrom) ? 0.1
+         : hasOneOf(heading, kNanometre)         ? 1.0
+                                                 : 0.0;
 }
 
 bool namesWavelength(std::string_view text) {

@@ -11,14 +11,19 @@ namespace {
 
 constexpr std::string_view kMark = " ... ";
 
-/// "/build/reposrc/ImfHeader.cpp:215," and the like: a source, with a path, perhaps with a line.
-bool isPlaceInSources(std::string_view word) {
+/// "/build/reposrc/ImfHeader.cpp:215," and the like: a source, with a path, perhaps with a line. What a message begins
+/// with is the user's file, "grades/warm.cc:", unless it has a line.
+bool isPlaceInSources(std::string_view word, bool isFirst) {
   constexpr std::array<std::string_view, 7> kExtensions = {".cpp", ".cc", ".cxx", ".c", ".hpp", ".h", ".inl"};
   if (word.find('/') == std::string_view::npos && word.find('\\') == std::string_view::npos) {
     return false;
   }
   const std::size_t end = word.find_last_not_of("0123456789:,;()[]'\"");
   const std::string_view path = word.substr(0, end + 1);
+  const bool hasLine = word.find_first_of("0123456789", end + 1) != std::string_view::npos;
+  if (isFirst && !hasLine) {
+    return false;
+  }
   return std::any_of(kExtensions.begin(), kExtensions.end(), [path](std::string_view extension) {
     return path.size() > extension.size() && path.substr(path.size() - extension.size()) == extension;
   });
@@ -36,7 +41,7 @@ std::string messageLine(std::string_view message, std::size_t most) {
   for (std::size_t begin = plain.find_first_not_of(' '); begin != std::string::npos;) {
     const std::size_t end = std::min(plain.find(' ', begin), plain.size());
     const std::string_view word = std::string_view(plain).substr(begin, end - begin);
-    if (!isPlaceInSources(word)) {
+    if (!isPlaceInSources(word, line.empty())) {
       line.append(line.empty() ? "" : " ").append(word);
     }
     begin = plain.find_first_not_of(' ', end);

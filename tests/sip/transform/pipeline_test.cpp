@@ -33,7 +33,7 @@ TEST(SpectralTransformTest, ErrorsNameWhatGivesNoLight) {
   spec.input.illuminant =
       spectral::Spectrum("infrared", spectral::SpectralQuantity::SpectralPowerDistribution, {800.0, 900.0}, {1.0, 1.0});
   EXPECT_EQ(errorOf([&] { SpectralTransform transform(spec); }),
-            "infrared: illuminant 'CIE 1931 2': this light gives this observer nothing between 380 and 780 nm");
+            "illuminant 'infrared': gives the observer CIE 1931 2 nothing between 380 and 780 nm; name another light");
   spec = specOf("D65", "A");
   spec.adaptation = kNan;
   EXPECT_NE(errorOf([&] { SpectralTransform transform(spec); }).find("adaptation"), std::string::npos);

@@ -44,6 +44,7 @@ TEST(CsvReaderTest, AnyDelimiterDecimalSignLineEndAndOrder) {
       {"micrometre", "wavelength_um,power\n0.4,0.5\n0.41,1.5\n"},
       {"micro sign", "\u00b5m;power\n0,4;0,5\n0,41;1,5\n"},
       {"angstrom", "Wavelength (Angstrom),power\n4000,0.5\n4100,1.5\n"},
+      {"angstrom, one letter", "Wavelength (A),power\n4000,0.5\n4100,1.5\n"},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.name);

@@ -13,6 +13,7 @@ TEST(MessageLineTest, IsOneLineWithoutTheBuildersFolders) {
   // Files of the user stay.
   EXPECT_EQ(messageLine("/show/luts/night.cube: size '1': too small"), "/show/luts/night.cube: size '1': too small");
   EXPECT_EQ(messageLine("main.cpp: is no recipe"), "main.cpp: is no recipe");
+  EXPECT_EQ(messageLine("grades/warm.cc: LUT: cannot be read"), "grades/warm.cc: LUT: cannot be read");
   EXPECT_EQ(messageLine(""), "");
 }
 
