@@ -2,11 +2,11 @@
 #include "metamer/ocio/lut_writer.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "cube/shaper_curve.h"
 #include "files/baker_text.h"
 #include "files/cube_text.h"
+#include "files/operators_text.h"
 #include "metamer/ocio/log_cube.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/argument_checks.h"
@@ -75,7 +75,7 @@ std::vector<float> curves(const OCIO::ConstGroupTransformRcPtr& group, int count
   return greyRamp(group, count);
 }
 
-/// OCIO's own writer, for operators.
+/// By OCIO's own writer, for operators.
 std::string groupText(const LutFormat& format, const OCIO::ConstGroupTransformRcPtr& group,
                       const LutDescription& description) {
   auto copy = OCIO::DynamicPtrCast<OCIO::GroupTransform>(group->createEditableCopy());
@@ -89,13 +89,11 @@ std::string groupText(const LutFormat& format, const OCIO::ConstGroupTransformRc
   for (const auto& line : description.lines) {
     metadata.addChildElement(OCIO::METADATA_DESCRIPTION, line.c_str());
   }
-  std::ostringstream text;
   try {
-    copy->write(OCIO::Config::CreateRaw(), format.name.c_str(), text);
+    return operatorsText(copy, format.name);
   } catch (const OCIO::Exception& error) {
     throw InputError("", "format", format.name, std::string("cannot hold this transform: ") + error.what());
   }
-  return std::move(text).str();
 }
 
 }  // namespace
