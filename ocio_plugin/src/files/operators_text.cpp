@@ -34,7 +34,7 @@ OCIO::TransformRcPtr standInOf(const OCIO::Lut3DTransform& table) {
 OCIO::GroupTransformRcPtr withoutTables(const OCIO::GroupTransform& group,
                                         std::vector<OCIO::ConstLut3DTransformRcPtr>& tables) {
   // The copy's list is its own, what the list holds is not.
-  const auto copy = OCIO::DynamicPtrCast<OCIO::GroupTransform>(group.createEditableCopy());
+  auto copy = OCIO::DynamicPtrCast<OCIO::GroupTransform>(group.createEditableCopy());
   for (int k = 0; k < group.getNumTransforms(); ++k) {
     const OCIO::ConstTransformRcPtr one = group.getTransform(k);
     if (const auto inner = OCIO::DynamicPtrCast<const OCIO::GroupTransform>(one)) {
