@@ -23,7 +23,7 @@ std::shared_ptr<const Cuda> Cuda::load(const char* variable) {
   }
   auto functions = std::make_shared<Cuda>();
   bool hasAll = true;
-  const auto find = [&](auto& function, const char* symbol) { hasAll = library->find(function, symbol) && hasAll; };
+  const auto find = [&](auto& pointer, const char* symbol) { hasAll = library->find(pointer, symbol) && hasAll; };
   find(functions->init, "cuInit");
   find(functions->deviceCount, "cuDeviceGetCount");
   find(functions->currentContext, "cuCtxGetCurrent");

@@ -59,6 +59,7 @@ class Queue final : public DeviceQueue {
   const void* place() const override {
     std::uint64_t id = 0;
     const bool hasId = m_library->contextId != nullptr && m_library->contextId(m_context, &id) == Cuda::kSuccess;
+    // A name of the context, never followed. NOLINTNEXTLINE(performance-no-int-to-ptr)
     return hasId ? reinterpret_cast<const void*>(static_cast<std::uintptr_t>(id)) : m_context;
   }
 
@@ -66,6 +67,7 @@ class Queue final : public DeviceQueue {
     Cuda::Address made = 0;
     checkCuda(m_library->allocate(&made, bytes.size()), "memory for tables");
     // What frees it may run on any thread, in the midst of any context; a context that is gone has freed it.
+    // CUDA's addresses are numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
     std::shared_ptr<void> memory(reinterpret_cast<void*>(static_cast<std::uintptr_t>(made)),
                                  [library = m_library, context = m_context](void* address) {
                                    if (library->pushContext(context) == Cuda::kSuccess) {
