@@ -85,7 +85,10 @@ class FluorescenceTable {
  private:
   static constexpr float kLeastChance = 0.1F;
 
-  static std::size_t index(std::int32_t cell) { return static_cast<std::size_t>(cell + kUltravioletCells); }
+  static std::size_t index(std::int32_t cell) {
+    const std::int32_t at = cell + kUltravioletCells;
+    return static_cast<std::size_t>(at);
+  }
   /// Running sums of an emission's excitations, all below it: 0 first, the sum of all last.
   static std::size_t start(std::int32_t cell) { return index(cell) * (index(cell) + 1) / 2; }
   static std::size_t end(std::int32_t cell) { return start(cell) + index(cell); }
