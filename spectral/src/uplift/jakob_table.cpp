@@ -76,7 +76,7 @@ JakobTable::JakobTable(const DataLibrary& library, int resolution, const std::op
         Eigen::Vector3d ofMiddle = Eigen::Vector3d::Zero();
         const auto solveAt = [&](std::size_t place, const Eigen::Vector3d& start) {
           const double value = std::clamp(static_cast<double>(m_axis[place]), kMargin, 1 - kMargin);
-          const Eigen::Vector3d found = solver.solveFrom(start, xyzFromRgb * (value * direction)).coefficients;
+          Eigen::Vector3d found = solver.solveFrom(start, xyzFromRgb * (value * direction)).coefficients;
           float* const node = &m_coefficients[4 * (((largest * size + place) * size + second) * size + first)];
           Eigen::Map<Eigen::Vector3f>{node} = found.cast<float>();
           return found;
