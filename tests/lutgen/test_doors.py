@@ -153,16 +153,16 @@ class Outputs(LutgenTest):
                                  says=[f"{space}.yaml: ", "config.ocio: ", says])
         charts = ["--charts", "a.csv", "b.csv", "--json", "a.json"]
         for arguments, says in (
-            (["bake", "dark.yaml", "-o", "a.ctf"], "dark.yaml: output: power: illuminant"),
-            (["config", "dark.yaml", "-o", "a.ocio"], "dark.yaml: output: power: illuminant"),
-            (["job", "bake", "dark.yaml", "-o", "looks", "--slurm", "job"], "dark.yaml: output: power: illuminant"),
+            (["bake", "dark.yaml", "-o", "a.ctf"], "dark.yaml: output: illuminant 'power'"),
+            (["config", "dark.yaml", "-o", "a.ocio"], "dark.yaml: output: illuminant 'power'"),
+            (["job", "bake", "dark.yaml", "-o", "looks", "--slurm", "job"], "dark.yaml: output: illuminant 'power'"),
             (["bake", "opaque.yaml", "-o", "a.ctf"], "opaque.yaml: output: A through power: filters '1'"),
             (["config", "comma.yaml", "-o", "a.ocio"], "comma.yaml: name 'a,b'"),
             (["job", "bake", "comma.yaml", "-o", "comma.yaml", "--slurm", "new/job"], "comma.yaml: folder: cannot be made"),
             (["skin", "estimate", "a.png", "-o", "a.exr", "--illuminant", "zero.csv"], "zero.csv: illuminant 'power'"),
             (["stage", "match", "--target", "black.csv", *charts], "black.csv: target: holds no light"),
             (["stage", "match", "--target", "others.csv", *charts], "others.csv: --charts: charts: no patch"),
-            (["stage", "select", "--targets", "zero.csv", "--emitters", "led:600:20", "--json", "a.json"], "zero.csv: power: illuminant"),
+            (["stage", "select", "--targets", "zero.csv", "--emitters", "led:600:20", "--json", "a.json"], "zero.csv: illuminant 'power'"),
             (["stage", "match", "--target", "A", "--emitters", "zero.csv", "--json", "a.json"], "zero.csv: emitters: give no"),
             (["stage", "linearity", "two.csv"], "two.csv: drives '2'"),
         ):
