@@ -11,12 +11,7 @@ constexpr auto kSegmentPixels = static_cast<std::size_t>(FilmSums::kSegment);
 
 /// Of carries that are there or not.
 bool areAllZero(const std::vector<std::int64_t>& carries) {
-  for (const std::int64_t count : carries) {
-    if (count != 0) {
-      return false;
-    }
-  }
-  return true;
+  return std::all_of(carries.begin(), carries.end(), [](std::int64_t count) { return count == 0; });
 }
 
 }  // namespace

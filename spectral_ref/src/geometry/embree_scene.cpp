@@ -86,7 +86,7 @@ void pack(const RayGroup& rays, RayMask active, RTCRay8& packed, EachRay<int>& v
   for (std::size_t i = 0; i < kRaysTogether; ++i) {
     valid[i] = -static_cast<int>((active >> i) & 1U);
   }
-  const bool areAll = active == (RayMask{1} << kRaysTogether) - 1U;
+  const bool areAll = active == kAllRays;
   const auto fill = [&](float* to, const EachRay<float>& from) {
     if (areAll) {
       std::copy(from.begin(), from.end(), to);

@@ -77,16 +77,20 @@ struct Ray {
   float most = std::numeric_limits<float>::infinity();
 };
 
+/// As std::max, by value: vector lanes are filled by it.
+METAMER_ALWAYS_INLINE float larger(float a, float b) {
+  return a > b ? a : b;
+}
+
 /// How far off a surface rays begin: float positions carry an error in proportion to their size.
-/// @param size  the largest of a point's coordinates, none negative
-METAMER_ALWAYS_INLINE float offDistance(float size) {
+METAMER_ALWAYS_INLINE float offDistance(float x, float y, float z) {
   constexpr float kRelative = 1e-5F;
-  return kRelative * (1.0F + size);
+  return kRelative * (1.0F + larger(larger(std::abs(x), std::abs(y)), std::abs(z)));
 }
 
 /// A point a little off a surface, on the side that `direction` leaves to.
 inline Vec3 offPoint(const Vec3& point, const Vec3& normal, const Vec3& direction) {
-  const float distance = offDistance(point.cwiseAbs().maxCoeff());
+  const float distance = offDistance(point.x(), point.y(), point.z());
   return point + normal * std::copysign(distance, normal.dot(direction));
 }
 

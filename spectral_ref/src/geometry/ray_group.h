@@ -30,6 +30,12 @@ inline constexpr std::size_t kRaysTogether = 8;
 /// Bit i stands for ray i of a group.
 using RayMask = std::uint32_t;
 
+/// The first so many rays of a group.
+constexpr RayMask firstRays(std::size_t count) {
+  return (RayMask{1} << count) - 1U;
+}
+inline constexpr RayMask kAllRays = firstRays(kRaysTogether);
+
 /// Calls `work` with the number of each ray of a mask, from the first.
 template <typename Work>
 void forEachRay(RayMask mask, const Work& work) {

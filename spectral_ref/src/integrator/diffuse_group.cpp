@@ -9,11 +9,6 @@
 namespace metamer::spectral_ref {
 namespace {
 
-/// As std::max, by value: vector lanes are filled by it.
-METAMER_ALWAYS_INLINE float larger(float a, float b) {
-  return a > b ? a : b;
-}
-
 METAMER_VECTOR_LANES void look(const HitGroup& hits, LightsOfGroup& lights, RayGroup& towards) {
   for (std::size_t i = 0; i < kRaysTogether; ++i) {
     const float px = hits.position.x[i];
@@ -31,7 +26,7 @@ METAMER_VECTOR_LANES void look(const HitGroup& hits, LightsOfGroup& lights, RayG
     // Both cosines over the squared distance: cos / pi over the density of the direction, times pi.
     const float geometry = received * given;
     lights.weight[i] = geometry / (kPi * lights.chance[i] + geometry * lights.isShared[i]);
-    const float off = offDistance(larger(larger(std::abs(px), std::abs(py)), std::abs(pz)));
+    const float off = offDistance(px, py, pz);
     const float ox = px + nx * off;
     const float oy = py + ny * off;
     const float oz = pz + nz * off;
@@ -66,7 +61,7 @@ METAMER_VECTOR_LANES void scatter(const HitGroup& hits, const EachRay<float>& u,
     const float px = hits.position.x[i];
     const float py = hits.position.y[i];
     const float pz = hits.position.z[i];
-    const float off = offDistance(larger(larger(std::abs(px), std::abs(py)), std::abs(pz)));
+    const float off = offDistance(px, py, pz);
     next.origin.x[i] = px + nx * off;
     next.origin.y[i] = py + ny * off;
     next.origin.z[i] = pz + nz * off;
@@ -83,8 +78,7 @@ void lookAtLights(const HitGroup& hits, LightsOfGroup& lights, RayGroup& towards
 
 void scatterDiffusely(const HitGroup& hits, const EachRay<float>& u, const EachRay<float>& v, RayMask paths,
                       RayGroup& next, EachRay<float>& pdf) {
-  constexpr RayMask kAll = (RayMask{1} << kRaysTogether) - 1U;
-  if (paths == kAll) {
+  if (paths == kAllRays) {
     scatter(hits, u, v, next, pdf);
     return;
   }

@@ -40,6 +40,8 @@ class DiffuseSurfaces {
  public:
   using Group = PathGroup<C, kDispersive>;
 
+  static_assert(kRaysTogether <= LightChoice::kMostTogether);
+
   explicit DiffuseSurfaces(const PreparedScene& prepared)
       : m_prepared(prepared), m_isOff(kDispersive || prepared.materials.hasGels() || prepared.lights.empty()) {}
 

@@ -40,12 +40,11 @@ void EdgeMap::look(int x, int y) {
   }
   RayGroup rays;
   m_prepared.camera.rays(across, down, rays);
-  constexpr RayMask kAll = (RayMask{1} << kRaysTogether) - 1U;
   HitGroup hits;
-  const RayMask found = m_prepared.shapes.intersect(rays, kAll, hits, Course::Alike);
-  bool isEdge = found != 0 && found != kAll;
+  const RayMask found = m_prepared.shapes.intersect(rays, kAllRays, hits, Course::Alike);
+  bool isEdge = found != 0 && found != kAllRays;
   const Hit first = hits[0];
-  for (std::size_t i = 1; i < kRaysTogether && found == kAll && !isEdge; ++i) {
+  for (std::size_t i = 1; i < kRaysTogether && found == kAllRays && !isEdge; ++i) {
     isEdge = !areAlike(m_prepared.lights, first, hits[i]);
   }
   m_isEdge[static_cast<std::size_t>(y) * static_cast<std::size_t>(m_prepared.scene.film.width) +

@@ -47,7 +47,7 @@ class PathIntegrator {
     for (std::size_t i = 0; i < starts.count; ++i) {
       group.paths[i].begin(starts.paths[i].wavelengths);
     }
-    RayMask alive = (RayMask{1} << starts.count) - 1U;
+    RayMask alive = firstRays(starts.count);
     for (int edge = 1; alive != 0; ++edge) {
       const RayMask found = nextSurfaces(group, alive, edge == 1 ? Course::Alike : Course::Any);
       forEachRay(alive & ~found & ~group.absorbed,

@@ -9,10 +9,16 @@
 namespace metamer::spectral_ref {
 namespace {
 
-/// As std::max, by value: vector lanes are filled by it.
-float larger(float a, float b) {
-  return a > b ? a : b;
-}
+/// Sums of eight numbers by half, quarter and eighth: who draws by them and who states the probability add up alike.
+struct Sums {
+  explicit Sums(const std::array<float, 8>& eighths)
+      : quarters{eighths[0] + eighths[1], eighths[2] + eighths[3], eighths[4] + eighths[5], eighths[6] + eighths[7]},
+        halves{quarters[0] + quarters[1], quarters[2] + quarters[3]},
+        all(halves[0] + halves[1]) {}
+  std::array<float, 4> quarters;
+  std::array<float, 2> halves;
+  float all;
+};
 
 /// Asks for all of something in memory before it is needed.
 template <typename T>
@@ -116,28 +122,25 @@ LightBranches::Each<float> LightBranches::importances(const Node& node, const Li
 /// Goes on to a child. @return  its node, or kLeaf: there the way ends
 std::uint32_t LightBranches::step(const Node& node, const LitPoint& point, Leaf& leaf) {
   const Each<float> importance = importances(node, point);
-  // Half, quarter, eighth, without a branch: which way it goes is chance.
-  const std::array<float, 4> pairs = {importance[0] + importance[1], importance[2] + importance[3],
-                                      importance[4] + importance[5], importance[6] + importance[7]};
-  const std::array<float, 2> halves = {pairs[0] + pairs[1], pairs[2] + pairs[3]};
-  const float sum = halves[0] + halves[1];
-  if (!(sum > 0.0F)) {
+  const Sums sums(importance);
+  if (!(sums.all > 0.0F)) {
     leaf.probability = 0.0F;
     return kLeaf;
   }
-  double place = leaf.u * static_cast<double>(sum);
+  double place = leaf.u * static_cast<double>(sums.all);
   std::size_t chosen = 0;
+  // Without a branch: which way it goes is chance.
   const auto choose = [&](const auto& parts) {
     chosen *= 2;
     const bool isSecond = place >= static_cast<double>(parts[chosen]) && parts[chosen + 1] > 0.0F;
     place -= isSecond ? static_cast<double>(parts[chosen]) : 0.0;
     chosen += isSecond ? 1U : 0U;
   };
-  choose(halves);
-  choose(pairs);
+  choose(sums.halves);
+  choose(sums.quarters);
   choose(importance);
   leaf.u = std::clamp(place / static_cast<double>(importance[chosen]), 0.0, 1.0 - 0x1p-53);
-  leaf.probability *= importance[chosen] / sum;
+  leaf.probability *= importance[chosen] / sums.all;
   leaf.begin = node.begin[chosen];
   leaf.end = node.end[chosen];
   return node.child[chosen];
@@ -172,8 +175,7 @@ LightBranches::Leaf LightBranches::leafOf(const LitPoint& point, std::uint32_t p
   do {
     const Node& node = m_nodes[index];
     const Each<float> importance = importances(node, point);
-    const float sum = ((importance[0] + importance[1]) + (importance[2] + importance[3])) +
-                      ((importance[4] + importance[5]) + (importance[6] + importance[7]));
+    const float sum = Sums(importance).all;
     std::size_t k = 0;
     for (const std::uint32_t end : node.end) {
       k += end <= position ? 1U : 0U;

@@ -16,7 +16,7 @@ struct ExactSum {
 
   /// @param term  within +-1e12, so that millions of them fit; the caller sees to that
   static ExactSum of(double term) {
-    // From the bits of the number, mantissa times 2^(exponent - 1075): a film adds several to each sample.
+    // From the bits of the number, mantissa times 2^(exponent - 1075): guiding adds one for each lane of a path.
     constexpr int kMantissaBits = 52;
     constexpr int kNoShift = 1075 - 64;
     const auto bits = std::bit_cast<std::uint64_t>(term);
