@@ -30,9 +30,6 @@ using Map = HomogeneousMap;
 /// reflectances can make may pass the middle by.
 constexpr int kEdgeCheckLevels = 3;
 
-/// Of the tolerance, what the fine table may add to what the patches are off by.
-constexpr double kFineShare = 0.5;
-
 /// Cube coordinates from the white-normalised response (a, b, c): (2a - s, 2b - s, s), s the sum. On the front face
 /// they are chromaticity stretched to -1 ... 1; all that reflectances can make lies there.
 Eigen::Matrix3d cubeFromResponse() {
@@ -105,7 +102,7 @@ class Part {
     for (const Smooth& smooth : m_smooth) {
       m_fine->check(
           smooth.square, [&](double u, double v) { return evaluate(smooth.patch, u, v); }, smooth.metrics,
-          kFineShare * m_source.tolerance);
+          m_source.tolerance);
     }
     if (m_fine) {
       for (const KnownPoint& known : m_source.known) {

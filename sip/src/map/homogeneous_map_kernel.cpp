@@ -34,17 +34,18 @@ constexpr std::size_t kPrefetchedPixels = 256;
 
 /// Pixels that go through the fine table together: first all their places, then all their values. A processor runs
 /// ahead of the one and of the other, but not through a choice that waits for both.
-constexpr std::size_t kBlockPixels = 128;
+constexpr std::size_t kBlockPixels = 64;
 
 /// Some vectors of pixels on their way through the fine table, a channel each.
 struct Block {
   template <typename T>
   using Plane = std::array<T, kBlockPixels>;
-  HWY_ALIGN std::array<Plane<float>, 3> rgb;  ///< as they came
-  /// Of the four nodes round a pixel: low-low, high-low, low-high, high-high; times the pixel's length.
-  HWY_ALIGN std::array<Plane<float>, 4> weights;
-  HWY_ALIGN Plane<std::int32_t> node;    ///< of the first, in floats
-  HWY_ALIGN Plane<std::int32_t> isHere;  ///< of a mixed vector; 0: not of the table's, but as in `elsewhere`
+  HWY_ALIGN std::array<Plane<float>, 3> place;  ///< on the front face: x, y, length
+  HWY_ALIGN Plane<float> lowRow;                ///< weight of the two nodes below a pixel, times its length
+  HWY_ALIGN Plane<float> highRow;               ///< of the two above
+  HWY_ALIGN Plane<float> right;                 ///< how far from the left two to the right two: 0 ... 1
+  HWY_ALIGN Plane<std::int32_t> node;           ///< of the first, in floats
+  HWY_ALIGN Plane<std::int32_t> isHere;         ///< of a mixed vector; 0: not of the table's, but as in `elsewhere`
   HWY_ALIGN std::array<float, 4 * kBlockPixels> elsewhere;  ///< whole pixels
   std::array<std::uint16_t, kBlockPixels> pixel;            ///< of a vector: its first, within the block
   std::array<bool, kBlockPixels> isMixed;                   ///< of a vector: some are elsewhere
@@ -55,6 +56,20 @@ template <std::size_t kLanes>
 constexpr std::size_t laneOf(std::size_t pixel) {
   constexpr std::size_t kQuarter = std::max<std::size_t>(1, kLanes / 4);
   return kLanes < 4 ? pixel : 4 * (pixel % kQuarter) + pixel / kQuarter;
+}
+
+struct Pixels {
+  Colours colours;
+  V alpha;
+};
+
+HWY_INLINE Pixels loadPixels(const float* source) {
+  const Float d;
+  const std::size_t lanes = hn::Lanes(d);
+  Pixels pixels{{hn::LoadU(d, source), hn::LoadU(d, source + lanes), hn::LoadU(d, source + 2 * lanes)},
+                hn::LoadU(d, source + 3 * lanes)};
+  transpose(pixels.colours.red, pixels.colours.green, pixels.colours.blue, pixels.alpha);
+  return pixels;
 }
 
 HWY_INLINE void store(Colours colours, V alpha, float* destination) {
@@ -72,11 +87,8 @@ HWY_INLINE bool begin(const Map& map, const float* source, float* destination, s
   const Float d;
   const Int di;
   const std::size_t lanes = hn::Lanes(d);
-  V r = hn::LoadU(d, source);
-  V g = hn::LoadU(d, source + lanes);
-  V b = hn::LoadU(d, source + 2 * lanes);
-  V a = hn::LoadU(d, source + 3 * lanes);
-  transpose(r, g, b, a);
+  const auto [colours, a] = loadPixels(source);
+  const auto [r, g, b] = colours;
   Mask linear = hn::FirstN(d, 0);
   if (map.linearNormalCount > 0) {
     linear = inLinearCone(map, r, g, b);
@@ -105,26 +117,24 @@ HWY_INLINE bool begin(const Map& map, const float* source, float* destination, s
     hn::Store(hn::IfThenElseZero(hn::RebindMask(di, here), hn::Set(di, 1)), di, block.isHere.data() + at);
   }
   block.isMixed[at / lanes] = isMixed;
-  hn::Store(r, d, block.rgb[0].data() + at);
-  hn::Store(g, d, block.rgb[1].data() + at);
-  hn::Store(b, d, block.rgb[2].data() + at);
-  const Places places = placesOn(pixels.px, pixels.py, pixels.pz, pixels.largest, Map::kFineBits - Map::kMaximumDepth);
+  const Places places = placesOn(pixels.px, pixels.py, pixels.pz, pixels.largest);
+  hn::Store(places.x, d, block.place[0].data() + at);
+  hn::Store(places.y, d, block.place[1].data() + at);
+  hn::Store(places.length, d, block.place[2].data() + at);
+  const I column = cellsAt(places.x, Map::kFineBits);
+  const I row = cellsAt(places.y, Map::kFineBits);
   // Within its cell: what is left of the coordinate, rounded once.
   const auto within = [&](V coordinate, I cell) {
     const V before = hn::Sub(hn::Set(d, 0.5F * static_cast<float>(Map::kFineSide)), hn::ConvertTo(d, cell));
     return fused(coordinate, hn::Set(d, static_cast<float>(Map::kFineSide)), before);
   };
-  const V u = within(places.x, places.column);
-  const V v = within(places.y, places.row);
+  const V u = within(places.x, column);
+  const V v = within(places.y, row);
   const V high = hn::Mul(v, places.length);
-  const V low = hn::Sub(places.length, high);
-  const V highHigh = hn::Mul(u, high);
-  const V highLow = hn::Mul(u, low);
-  hn::Store(hn::Sub(low, highLow), d, block.weights[0].data() + at);
-  hn::Store(highLow, d, block.weights[1].data() + at);
-  hn::Store(hn::Sub(high, highHigh), d, block.weights[2].data() + at);
-  hn::Store(highHigh, d, block.weights[3].data() + at);
-  const I node = hn::Add(hn::Mul(places.row, hn::Set(di, Map::kFineSide + 1)), places.column);
+  hn::Store(hn::Sub(places.length, high), d, block.lowRow.data() + at);
+  hn::Store(high, d, block.highRow.data() + at);
+  hn::Store(u, d, block.right.data() + at);
+  const I node = hn::Add(hn::Mul(row, hn::Set(di, Map::kFineSide + 1)), column);
   hn::Store(hn::ShiftLeft<2>(node), di, block.node.data() + at);
   return true;
 }
@@ -145,7 +155,10 @@ HWY_INLINE void storeColour(Pixel colour, Pixel alpha, float* pixel) {
 HWY_INLINE Pixel product(Pixel a, Pixel b) {
   return hn::Mul(a, b);
 }
-HWY_INLINE Pixel both(Pixel a, Pixel b) {
+HWY_INLINE Pixel difference(Pixel a, Pixel b) {
+  return hn::Sub(a, b);
+}
+HWY_INLINE Pixel either(Pixel a, Pixel b) {
   return hn::Or(a, b);
 }
 HWY_INLINE float alphaOf(Pixel pixel) {
@@ -168,16 +181,57 @@ inline void storeColour(const Pixel& colour, const Pixel& alpha, float* pixel) {
 inline Pixel product(const Pixel& a, const Pixel& b) {
   return {a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]};
 }
+inline Pixel difference(const Pixel& a, const Pixel& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]};
+}
 inline Pixel fused(const Pixel& a, const Pixel& b, const Pixel& c) {
   return {std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1]), std::fma(a[2], b[2], c[2]),
           std::fma(a[3], b[3], c[3])};
 }
 /// Of which the alpha alone is looked at.
-inline Pixel both(const Pixel& a, const Pixel& b) {
+inline Pixel either(const Pixel& a, const Pixel& b) {
   return {0.0F, 0.0F, 0.0F, std::max(a[3], b[3])};
 }
 inline float alphaOf(const Pixel& pixel) {
   return pixel[3];
+}
+#endif
+
+/// Two nodes side by side, and a row of them mixed with the next.
+#if HWY_MAX_BYTES >= 32
+using Eight = hn::FixedTag<float, 8>;
+using Two = hn::VFromD<Eight>;
+HWY_INLINE Two loadTwo(const float* nodes) {
+  return hn::LoadU(Eight(), nodes);
+}
+HWY_INLINE Two mixed(Two low, float lowWeight, Two high, float highWeight) {
+  const Eight d;
+  return fused(high, hn::Set(d, highWeight), hn::Mul(low, hn::Set(d, lowWeight)));
+}
+HWY_INLINE Pixel leftOf(Two nodes) {
+  return hn::LowerHalf(Four(), nodes);
+}
+HWY_INLINE Pixel rightOf(Two nodes) {
+  return hn::UpperHalf(Four(), nodes);
+}
+#else
+struct Two {
+  Pixel left;
+  Pixel right;
+};
+HWY_INLINE Two loadTwo(const float* nodes) {
+  return {load(nodes), load(nodes + 4)};
+}
+HWY_INLINE Two mixed(const Two& low, float lowWeight, const Two& high, float highWeight) {
+  const Pixel a = set(lowWeight);
+  const Pixel b = set(highWeight);
+  return {fused(high.left, b, product(low.left, a)), fused(high.right, b, product(low.right, a))};
+}
+HWY_INLINE Pixel leftOf(const Two& nodes) {
+  return nodes.left;
+}
+HWY_INLINE Pixel rightOf(const Two& nodes) {
+  return nodes.right;
 }
 #endif
 
@@ -195,11 +249,11 @@ HWY_INLINE bool finishFine(const Map& map, const Block& block, std::size_t at, c
       return;
     }
     const float* const node = fine + block.node[place];
-    const auto weight = [&](std::size_t corner) { return set(block.weights[corner][place]); };
-    const Pixel lowLow = load(node);
-    const Pixel low = fused(weight(1), load(node + 4), product(weight(0), lowLow));
-    const Pixel value = fused(weight(3), load(node + kRow + 4), fused(weight(2), load(node + kRow), low));
-    first = both(first, lowLow);
+    const Two low = loadTwo(node);
+    const Two both = mixed(low, block.lowRow[place], loadTwo(node + kRow), block.highRow[place]);
+    const Pixel left = leftOf(both);
+    const Pixel value = fused(set(block.right[place]), difference(rightOf(both), left), left);
+    first = either(first, leftOf(low));
     storeColour(value, given, destination + 4 * pixel);
   };
   (finishOne(kPixels, at + laneOf<sizeof...(kPixels)>(kPixels)), ...);
@@ -208,24 +262,18 @@ HWY_INLINE bool finishFine(const Map& map, const Block& block, std::size_t at, c
 
 /// Where the fine table does not hold, a vector's pixels by their patches.
 HWY_NOINLINE void finishExactly(const Map& map, const Block& block, std::size_t at, float* destination) {
-  constexpr std::size_t kLanes = hn::MaxLanes(Float());
-  const bool isMixed = block.isMixed[at / kLanes];
-  HWY_ALIGN std::array<std::int32_t, kMostLanes> wanted;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const auto node = static_cast<std::size_t>(block.node[at + lane]);
-    wanted[lane] = (!isMixed || block.isHere[at + lane] != 0) && map.fine[node + 3] != 0.0F ? 1 : 0;
+  const Float d;
+  const Int di;
+  const V coarse = hn::GatherIndex(d, map.fine.data() + 3, hn::Load(di, block.node.data() + at));
+  Mask wanted = hn::Ne(coarse, hn::Zero(d));
+  if (block.isMixed[at / hn::Lanes(d)]) {
+    wanted = hn::And(wanted, hn::RebindMask(d, hn::Ne(hn::Load(di, block.isHere.data() + at), hn::Zero(di))));
   }
-  HWY_ALIGN std::array<float, 3 * kMostLanes> exact;
-  applyPatches(map, block.rgb[0].data() + at, block.rgb[1].data() + at, block.rgb[2].data() + at, wanted.data(),
-               exact.data());
-  for (std::size_t pixel = 0; pixel < kLanes; ++pixel) {
-    const std::size_t lane = laneOf<kLanes>(pixel);
-    if (wanted[lane] != 0) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        destination[4 * pixel + k] = exact[k * kLanes + lane];
-      }
-    }
-  }
+  const Places places{hn::Load(d, block.place[0].data() + at), hn::Load(d, block.place[1].data() + at),
+                      hn::Load(d, block.place[2].data() + at)};
+  auto [colours, alpha] = loadPixels(destination);
+  applyPatches(map, places, wanted, colours);
+  store(colours, alpha, destination);
 }
 
 HWY_INLINE void finish(const Map& map, const Block& block, std::size_t at, const float* source, float* destination) {
@@ -238,13 +286,12 @@ HWY_INLINE void finish(const Map& map, const Block& block, std::size_t at, const
   }
 }
 
-/// Brings the pixels from `pixel` on, a vector of them, near: the processor does not see that far by itself.
-HWY_INLINE void prefetch(const float* source, const float* destination, std::size_t pixel, std::size_t pixelCount) {
+/// Brings a vector of pixels near, from `pixel` on: the processor does not see that far by itself.
+HWY_INLINE void prefetch(const float* pixels, std::size_t pixel, std::size_t pixelCount) {
   constexpr std::size_t kFloatsPerLine = 16;
   const std::size_t end = std::min(4 * (pixel + hn::Lanes(Float())), 4 * pixelCount);
   for (std::size_t i = 4 * pixel; i < end; i += kFloatsPerLine) {
-    hwy::Prefetch(source + i);
-    hwy::Prefetch(destination + i);
+    hwy::Prefetch(pixels + i);
   }
 }
 
@@ -257,11 +304,12 @@ void applyMap(const Map& map, const float* source, float* destination, std::size
     const std::size_t end = std::min(pixelCount, pixel + kBlockPixels);
     std::size_t count = 0;
     for (; pixel + lanes <= end; pixel += lanes) {
-      prefetch(source, destination, pixel + kPrefetchedPixels, pixelCount);
+      prefetch(source, pixel + kPrefetchedPixels, pixelCount);
       block.pixel[count] = static_cast<std::uint16_t>(pixel - first);
       count += begin(map, source + 4 * pixel, destination + 4 * pixel, count * lanes, block) ? 1 : 0;
     }
     for (std::size_t k = 0; k < count; ++k) {
+      prefetch(destination, first + block.pixel[k] + kPrefetchedPixels, pixelCount);
       const std::size_t at = 4 * (first + block.pixel[k]);
       finish(map, block, k * lanes, source + at, destination + at);
     }

@@ -133,30 +133,27 @@ HWY_INLINE Planes planesOf(const Map& map, V r, V g, V b) {
   return {r, g, b, largest, dot(cube, x, y, z), dot(cube + 3, x, y, z), dot(cube + 6, x, y, z)};
 }
 
-/// Pixels' places on a face: its coordinates halved (-0.5 ... 0.5), and the cells of the finest grid they lie in.
+/// Pixels' places on a face: its coordinates halved, -0.5 ... 0.5.
 struct Places {
   V x;
   V y;
-  I column;
-  I row;
   V length;  ///< largest |p|
 };
 
 /// @param px, py, length  of pixels divided by `largest`
-HWY_INLINE Places placesOn(V px, V py, V length, V largest, int rootBits) {
+HWY_INLINE Places placesOn(V px, V py, V length, V largest) {
+  const Float d;
+  const V halfReciprocal = hn::Div(hn::Set(d, 0.5F), hn::Max(length, hn::Set(d, kSmallest)));
+  return {hn::Mul(px, halfReciprocal), hn::Mul(py, halfReciprocal), hn::Mul(length, largest)};
+}
+
+/// The cells coordinates lie in, of 2^bits a side.
+HWY_INLINE I cellsAt(V coordinate, int bits) {
   const Float d;
   const Int di;
-  const V halfReciprocal = hn::Div(hn::Set(d, 0.5F), hn::Max(length, hn::Set(d, kSmallest)));
-  const int cellBits = rootBits + Map::kMaximumDepth;
   // 1.5 more than a coordinate lies within [1, 2): the top bits of its mantissa are the cell.
-  const auto cell = [&](V coordinate) {
-    const V within = hn::Min(hn::Max(hn::Add(coordinate, hn::Set(d, 1.5F)), hn::Set(d, 1.0F)), hn::Set(d, kBelowTwo));
-    return hn::And(hn::ShiftRightSame(hn::BitCast(di, within), kMantissaBits - cellBits),
-                   hn::Set(di, (1 << cellBits) - 1));
-  };
-  const V x = hn::Mul(px, halfReciprocal);
-  const V y = hn::Mul(py, halfReciprocal);
-  return {x, y, cell(x), cell(y), hn::Mul(length, largest)};
+  const V within = hn::Min(hn::Max(hn::Add(coordinate, hn::Set(d, 1.5F)), hn::Set(d, 1.0F)), hn::Set(d, kBelowTwo));
+  return hn::And(hn::ShiftRightSame(hn::BitCast(di, within), kMantissaBits - bits), hn::Set(di, (1 << bits) - 1));
 }
 
 constexpr int kDepthMask = (1 << Map::kDepthBits) - 1;
@@ -166,15 +163,16 @@ constexpr int kInRoot = (1 << Map::kMaximumDepth) - 1;
 HWY_INLINE I patchesOn(const Map& map, const Places& places) {
   const Int di;
   constexpr int kRootBits = Map::kRootBits[Map::kFrontFace];
-  const I cell = hn::Add(hn::ShiftLeft<kRootBits>(hn::ShiftRight<Map::kMaximumDepth>(places.row)),
-                         hn::ShiftRight<Map::kMaximumDepth>(places.column));
+  const I column = cellsAt(places.x, kRootBits + Map::kMaximumDepth);
+  const I row = cellsAt(places.y, kRootBits + Map::kMaximumDepth);
+  const I cell = hn::Add(hn::ShiftLeft<kRootBits>(hn::ShiftRight<Map::kMaximumDepth>(row)),
+                         hn::ShiftRight<Map::kMaximumDepth>(column));
   const auto* const roots = reinterpret_cast<const std::int32_t*>(map.roots.data()) + map.faceOffset[Map::kFrontFace];
   const I root = hn::GatherIndex(di, roots, cell);
   const I depth = hn::And(root, hn::Set(di, kDepthMask));
   const I coarser = hn::Sub(hn::Set(di, Map::kMaximumDepth), depth);
   const auto within = [&](I cells) { return hn::Shr(hn::And(cells, hn::Set(di, kInRoot)), coarser); };
-  const I entry = hn::Add(hn::ShiftRight<Map::kDepthBits>(root),
-                          hn::Add(hn::Shl(within(places.row), depth), within(places.column)));
+  const I entry = hn::Add(hn::ShiftRight<Map::kDepthBits>(root), hn::Add(hn::Shl(within(row), depth), within(column)));
   return hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(map.patchIndex.data()), entry);
 }
 
@@ -230,9 +228,12 @@ HWY_NOINLINE void applyFar(const Map& map, const Planes& pixels, Mask far, Colou
     }
     const std::size_t face = 2 * axis + (p[axis] > 0.0F ? 0 : 1);
     const Places places = placesOn(hn::Set(d, p[(axis + 1) % 3]), hn::Set(d, p[(axis + 2) % 3]),
-                                   hn::Set(d, std::abs(p[axis])), pixels.largest, Map::kRootBits[face]);
+                                   hn::Set(d, std::abs(p[axis])), pixels.largest);
+    const auto cell = [&](V coordinate) {
+      return hn::GetLane(cellsAt(coordinate, Map::kRootBits[face] + Map::kMaximumDepth));
+    };
     const Mask own = hn::RebindMask(d, hn::Eq(hn::Iota(Int(), 0), hn::Set(Int(), static_cast<std::int32_t>(lane))));
-    applyPatch(patchOf(map, face, hn::GetLane(places.column), hn::GetLane(places.row)), places, own, result);
+    applyPatch(patchOf(map, face, cell(places.x), cell(places.y)), places, own, result);
     far = hn::AndNot(own, far);
   }
 }
@@ -263,30 +264,21 @@ HWY_INLINE Colours throughMatrix(const Map& map, V r, V g, V b) {
   return {dot(matrix, r, g, b), dot(matrix + 3, r, g, b), dot(matrix + 6, r, g, b)};
 }
 
-/// Those pixels of the front face that are wanted, by the patches they lie on; the rest comes back as anything. As
-/// neighbours mostly share a patch, that of the first pixel left is evaluated for all that lie on it, its coefficients
-/// the same for every lane, until none is left.
-HWY_INLINE void applyPatches(const Map& map, const float* r, const float* g, const float* b, const std::int32_t* wanted,
-                             float* rgb) {
+/// Those pixels of the front face that are wanted, by the patches they lie on. As neighbours mostly share a patch, that
+/// of the first pixel left is evaluated for all that lie on it, its coefficients the same for every lane, until none is
+/// left.
+HWY_INLINE void applyPatches(const Map& map, const Places& places, Mask wanted, Colours& result) {
   const Float d;
   const Int di;
-  const std::size_t lanes = hn::Lanes(d);
-  const Planes pixels = planesOf(map, hn::Load(d, r), hn::Load(d, g), hn::Load(d, b));
-  const Places places = placesOn(pixels.px, pixels.py, pixels.pz, pixels.largest, Map::kRootBits[Map::kFrontFace]);
   const I patches = patchesOn(map, places);
   HWY_ALIGN std::array<std::int32_t, kMostLanes> each;
   hn::Store(patches, di, each.data());
-  Colours result{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  Mask todo = hn::RebindMask(d, hn::Gt(hn::Load(di, wanted), hn::Zero(di)));
-  for (std::intptr_t lane = hn::FindFirstTrue(d, todo); lane >= 0; lane = hn::FindFirstTrue(d, todo)) {
+  for (std::intptr_t lane = hn::FindFirstTrue(d, wanted); lane >= 0; lane = hn::FindFirstTrue(d, wanted)) {
     const std::int32_t patch = each[static_cast<std::size_t>(lane)];
-    const Mask same = hn::RebindMask(d, hn::Eq(patches, hn::Set(di, patch)));
+    const Mask same = hn::And(wanted, hn::RebindMask(d, hn::Eq(patches, hn::Set(di, patch))));
     applyPatch(map.patches[static_cast<std::size_t>(patch)], places, same, result);
-    todo = hn::AndNot(same, todo);
+    wanted = hn::AndNot(same, wanted);
   }
-  hn::Store(result.red, d, rgb);
-  hn::Store(result.green, d, rgb + lanes);
-  hn::Store(result.blue, d, rgb + 2 * lanes);
 }
 
 }  // namespace HWY_NAMESPACE
