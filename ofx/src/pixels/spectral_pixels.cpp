@@ -25,10 +25,21 @@ void onOwnThreads(int count, const std::function<void(int)>& body) {
 
 }  // namespace
 
+SpectralEngine::SpectralEngine(const sip::TransformSpec& spec, EngineMemory& memory, EngineMemory& draftMemory)
+    : m_memory(memory), m_draftMemory(draftMemory) {
+  onOwnThreads(2, [&](int which) {
+    if (which == 0) {
+      m_exact.emplace(spec, sip::kDefaultBandCount, &memory.scenes);
+    } else {
+      m_coarse.emplace(spec, kDraftBandCount, &draftMemory.scenes);
+    }
+  });
+}
+
 const sip::HomogeneousMap& SpectralEngine::map() const {
   const std::lock_guard lock(m_mutex);
   if (!m_map) {
-    m_map = sip::buildHomogeneousMap(m_exact, sip::kDefaultMapTolerance, onOwnThreads, &m_memory.maps);
+    m_map = sip::buildHomogeneousMap(*m_exact, sip::kDefaultMapTolerance, onOwnThreads, &m_memory.maps);
     m_hasMap = true;
   }
   return *m_map;
@@ -40,8 +51,8 @@ const sip::HomogeneousMap& SpectralEngine::draftMap() const {
   }
   const std::lock_guard lock(m_draftMutex);
   if (!m_draft) {
-    const sip::SpectralTransform coarse(m_spec, kDraftBandCount, &m_draftMemory.scenes);
-    m_draft = sip::buildHomogeneousMap(coarse, kDraftTolerance, onOwnThreads, &m_draftMemory.maps);
+    m_draft =
+        sip::buildHomogeneousMap(*m_coarse, kDraftTolerance, onOwnThreads, &m_draftMemory.maps, kDraftFewerLevels);
   }
   return *m_draft;
 }

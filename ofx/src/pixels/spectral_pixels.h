@@ -16,10 +16,11 @@
 
 namespace metamer::ofx {
 
-/// Bands of a draft's transform, and the tolerance of its map: a frame while a slider is drawn, on a photograph within
-/// a hundredth of a pixel's largest channel (99th percentile).
-inline constexpr int kDraftBandCount = 81;
-inline constexpr double kDraftTolerance = 0.5;
+/// Bands of a draft's transform, and the tolerance of its map, and the levels that one lacks: a frame while a slider is
+/// drawn, on a photograph within a hundredth of a pixel's largest channel (99th percentile).
+inline constexpr int kDraftBandCount = 41;
+inline constexpr double kDraftTolerance = 0.35;
+inline constexpr int kDraftFewerLevels = 3;
 
 /// What other engines had to solve, for final frames or for drafts. Outlives them all.
 struct EngineMemory {
@@ -31,13 +32,9 @@ struct EngineMemory {
 class SpectralEngine {
  public:
   /// @throws spectral::InputError as SpectralTransform does
-  SpectralEngine(sip::TransformSpec spec, EngineMemory& memory, EngineMemory& draftMemory)
-      : m_spec(std::move(spec)),
-        m_memory(memory),
-        m_draftMemory(draftMemory),
-        m_exact(m_spec, sip::kDefaultBandCount, &memory.scenes) {}
+  SpectralEngine(const sip::TransformSpec& spec, EngineMemory& memory, EngineMemory& draftMemory);
 
-  const sip::SpectralTransform& exact() const { return m_exact; }
+  const sip::SpectralTransform& exact() const { return *m_exact; }
   /// Safe from several threads: one builds, the others wait.
   const sip::HomogeneousMap& map() const;
   /// map() where it is there; else a coarse one, in a fraction of the time.
@@ -48,10 +45,10 @@ class SpectralEngine {
   }
 
  private:
-  sip::TransformSpec m_spec;
   EngineMemory& m_memory;
   EngineMemory& m_draftMemory;
-  sip::SpectralTransform m_exact;
+  std::optional<sip::SpectralTransform> m_exact;
+  std::optional<sip::SpectralTransform> m_coarse;  ///< for drafts
   mutable std::mutex m_mutex;
   mutable std::optional<sip::HomogeneousMap> m_map;
   mutable std::atomic<bool> m_hasMap = false;

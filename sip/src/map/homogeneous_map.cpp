@@ -13,7 +13,7 @@
 #include <unordered_map>
 
 #include "map/adini_element.h"
-#include "map/fine_table.h"
+#include "map/fine_block.h"
 #include "map/known_points.h"
 #include "map/linear_cone.h"
 #include "map/map_memory_state.h"
@@ -49,32 +49,36 @@ Eigen::Matrix3d withoutOverflow(const Eigen::Matrix3d& cubeFromRgb) {
 
 /// What all parts of a map are built from.
 struct Source {
-  Source(const SpectralTransform& given, double givenTolerance)
+  Source(const SpectralTransform& given, double givenTolerance, int givenFewerLevels)
       : transform(given),
         tolerance(givenTolerance),
+        fewerLevels(givenFewerLevels),
         cubeFromRgb(withoutOverflow(cubeFromResponse() * given.responseFromRgb())),
         rgbFromCube(cubeFromRgb.inverse()),
         metric(given.space()) {}
 
   const SpectralTransform& transform;
   double tolerance;
+  int fewerLevels;
   Eigen::Matrix3d cubeFromRgb;
   Eigen::Matrix3d rgbFromCube;
   PerceptualMetric metric;
   std::vector<KnownPoint> known = knownPoints(transform, cubeFromRgb, metric);
 };
 
-/// Some rows of a face's root cells, with the patches they need. Built on its own, so that the threads that build the
+/// A square of a face's root cells, with the patches they need. Built on its own, so that the threads that build the
 /// parts cannot change what comes out.
 class Part {
  public:
-  Part(const Source& source, int face, int firstRow) : m_source(source), m_face(face), m_firstRow(firstRow) {
+  Part(const Source& source, int face, int firstColumn, int firstRow)
+      : m_source(source), m_face(face), m_firstColumn(firstColumn), m_firstRow(firstRow) {
     if (face == Map::kFrontFace) {
-      m_fine.emplace(firstRow * kFinePerRoot, kRows * kFinePerRoot);
+      m_fine.emplace(firstColumn * kFinePerRoot, firstRow * kFinePerRoot, kSide * kFinePerRoot);
     }
   }
 
-  static constexpr int kRows = 2;
+  /// Small, as most of a map's work may lie in a few root cells.
+  static constexpr int kSide = 2;
 
   /// @param memory  of this part; may be null
   void build(PartMemory* memory) {
@@ -83,13 +87,12 @@ class Part {
     if (memory != nullptr) {
       memory->beginBuild();
     }
-    const int side = 1 << Map::kRootBits[static_cast<std::size_t>(m_face)];
-    constexpr int kSide = 1 << (Map::kMaximumDepth + 1);
+    constexpr int kRootSteps = 1 << (Map::kMaximumDepth + 1);
     std::vector<std::size_t> open;  // cells that are not judged yet, all of one level
-    for (int j = m_firstRow; j < m_firstRow + kRows; ++j) {
-      for (int i = 0; i < side; ++i) {
+    for (int j = m_firstRow; j < m_firstRow + kSide; ++j) {
+      for (int i = m_firstColumn; i < m_firstColumn + kSide; ++i) {
         open.push_back(m_cells.size());
-        m_cells.push_back({i * kSide, j * kSide, kSide});
+        m_cells.push_back({i * kRootSteps, j * kRootSteps, kRootSteps});
       }
     }
     const std::size_t rootCount = open.size();
@@ -115,12 +118,17 @@ class Part {
     m_table.reset();
   }
 
-  /// Appends the part to a map, in the order of faces and rows.
+  /// Puts the part into a map whose roots and fine table have their room.
   void appendTo(Map& map) const {
     const auto firstIndex = static_cast<std::uint32_t>(map.patchIndex.size());
     const auto firstPatch = static_cast<std::uint32_t>(map.patches.size());
-    for (const std::uint32_t root : m_roots) {
-      map.roots.push_back(root + (firstIndex << Map::kDepthBits));
+    const auto face = static_cast<std::size_t>(m_face);
+    for (int j = 0; j < kSide; ++j) {
+      for (int i = 0; i < kSide; ++i) {
+        const int root = ((m_firstRow + j) << Map::kRootBits[face]) + m_firstColumn + i;
+        map.roots[map.faceOffset[face] + static_cast<std::uint32_t>(root)] =
+            m_roots[static_cast<std::size_t>(kSide * j + i)] + (firstIndex << Map::kDepthBits);
+      }
     }
     for (const std::uint32_t patch : m_patchIndex) {
       map.patchIndex.push_back(patch + firstPatch);
@@ -254,11 +262,14 @@ class Part {
     return index;
   }
 
-  bool isDeepest(const Cell& cell) const { return cell.level == Map::kDepthLimit[static_cast<std::size_t>(m_face)]; }
+  bool isDeepest(const Cell& cell) const {
+    return cell.level >= Map::kDepthLimit[static_cast<std::size_t>(m_face)] - m_source.fewerLevels;
+  }
   /// A cell whose middle does not settle it is checked on its edges: also the corners of the four parts, should there
   /// be any.
   bool needsEdges(const Cell& cell) const {
-    return (cell.excess <= 1.0 && cell.level < kEdgeCheckLevels) || (cell.excess > 1.0 && !isDeepest(cell));
+    return (cell.excess <= 1.0 && cell.level < kEdgeCheckLevels - m_source.fewerLevels) ||
+           (cell.excess > 1.0 && !isDeepest(cell));
   }
 
   /// Judges cells of one level. @return the parts of those that are not good enough
@@ -357,7 +368,7 @@ class Part {
 
   /// A patch that is no smaller than a cell of the fine table.
   struct Smooth {
-    FineRows::Square square;
+    FineBlock::Square square;
     Adini patch;
     std::array<const Eigen::Matrix3d*, 4> metrics;
   };
@@ -366,11 +377,12 @@ class Part {
 
   const Source& m_source;
   int m_face;
+  int m_firstColumn;
   int m_firstRow;
   std::vector<std::uint32_t> m_roots;
   std::vector<std::uint32_t> m_patchIndex;
   std::vector<Map::Patch> m_patches;
-  std::optional<FineRows> m_fine;
+  std::optional<FineBlock> m_fine;
   std::vector<Smooth> m_smooth;
   Map::Statistics m_statistics;
   /// Nodes by position. None is dropped before all are.
@@ -387,29 +399,33 @@ class Part {
 }  // namespace
 
 HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance, const ParallelFor& parallelFor,
-                                   const MapMemory* memory) {
+                                   const MapMemory* memory, int fewerLevels) {
   spectral::requireAbove("tolerance", tolerance, 0.0);
+  spectral::requireWithin("fewerLevels", fewerLevels, 0, Map::kMaximumDepth);
   Map map;
   map.identity = transform.isIdentity();
   if (map.identity) {
     return map;
   }
-  const Source source(transform, tolerance);
+  const Source source(transform, tolerance, fewerLevels);
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.cubeFromRgb.data()) = source.cubeFromRgb.cast<float>();
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.linearMatrix.data()) =
       transform.linearMatrix().cast<float>();
   addLinearCone(transform, source.cubeFromRgb, map);
-  map.fine = FineRows::emptyTable();
+  map.fine = FineBlock::emptyTable();
   std::deque<Part> parts;  // which hold pointers into themselves
   std::uint32_t rootCount = 0;
   for (int face = 0; face < Map::kFaceCount; ++face) {
     const int side = 1 << Map::kRootBits[static_cast<std::size_t>(face)];
     map.faceOffset[static_cast<std::size_t>(face)] = rootCount;
     rootCount += static_cast<std::uint32_t>(side * side);
-    for (int row = 0; row < side; row += Part::kRows) {
-      parts.emplace_back(source, face, row);
+    for (int row = 0; row < side; row += Part::kSide) {
+      for (int column = 0; column < side; column += Part::kSide) {
+        parts.emplace_back(source, face, column, row);
+      }
     }
   }
+  map.roots.resize(rootCount);
   if (memory == nullptr) {
     parallelFor(static_cast<int>(parts.size()),
                 [&](int part) { parts[static_cast<std::size_t>(part)].build(nullptr); });

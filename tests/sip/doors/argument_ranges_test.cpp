@@ -137,6 +137,10 @@ TEST(SipRanges, Maps) {
   EXPECT_REFUSED("tolerance '0'", buildHomogeneousMap(coarse(), 0));
   EXPECT_REFUSED("tolerance '-1'", buildHomogeneousMap(coarse(), -1));
   EXPECT_REFUSED("tolerance 'nan'", buildHomogeneousMap(coarse(), kNotANumber));
+  EXPECT_REFUSED("fewerLevels '-1'", buildHomogeneousMap(coarse(), 0.5, inOrder, nullptr, -1));
+  EXPECT_REFUSED("fewerLevels '8'",
+                 buildHomogeneousMap(coarse(), 0.5, inOrder, nullptr, HomogeneousMap::kMaximumDepth + 1));
+  EXPECT_TAKEN(buildHomogeneousMap(coarse(), 0.5, inOrder, nullptr, HomogeneousMap::kMaximumDepth));
 }
 
 TEST(SipRanges, Judgements) {

@@ -39,7 +39,7 @@ Map byPatchesAlone(Map map) {
   return map;
 }
 
-TEST(FineTableTest, StaysWithinItsShareOfTheTolerance) {
+TEST(FineTableTest, StaysWithinTheTolerance) {
   for (const auto& pair : {lightPairs()[1], lightPairs()[3]}) {
     const SpectralTransform transform(naturalSpecOf(pair.first, pair.second), 81);
     const Map map = buildHomogeneousMap(transform);

@@ -89,8 +89,11 @@ void inOrder(int count, const std::function<void(int)>& body);
 ///                   Patches at the greatest depth may exceed it (statistics.largestError says by how much).
 /// @param parallelFor  runs the parts of the map
 /// @param memory       of maps before; may be null
-/// @throws spectral::InputError where the tolerance is not above 0
+/// @param fewerLevels  0 ... kMaximumDepth: levels of patches that are left out, the finest first. Coarser where the
+///                     transform bends most, and sooner there. At 3 no patch is smaller than a cell of the fine table.
+/// @throws spectral::InputError where the tolerance is not above 0, or the levels are out of range
 HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double tolerance = kDefaultMapTolerance,
-                                   const ParallelFor& parallelFor = inOrder, const MapMemory* memory = nullptr);
+                                   const ParallelFor& parallelFor = inOrder, const MapMemory* memory = nullptr,
+                                   int fewerLevels = 0);
 
 }  // namespace metamer::sip

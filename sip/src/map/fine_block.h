@@ -9,11 +9,11 @@
 
 namespace metamer::sip {
 
-/// Some rows of HomogeneousMap::fine, from the patches that lie there.
-class FineRows {
+/// A square of HomogeneousMap::fine, from the patches that lie there.
+class FineBlock {
  public:
-  /// @param firstRow, rowCount  of cells
-  FineRows(int firstRow, int rowCount);
+  /// @param firstColumn, firstRow, side  of cells
+  FineBlock(int firstColumn, int firstRow, int side);
 
   /// A square of cells under one patch, in cells of the whole table.
   struct Square {
@@ -49,14 +49,10 @@ class FineRows {
   }
 
   /// Leaves a cell to the patches, as where they are within the tolerance at one point and it is not. A cell of other
-  /// rows is none of these.
-  void exclude(int column, int row) {
-    if (row >= m_firstRow && row < m_firstRow + m_rowCount) {
-      m_isGood[cellIndex(column, row)] = false;
-    }
-  }
+  /// blocks is none of these.
+  void exclude(int column, int row);
 
-  /// Puts the rows into a table of all nodes; where rows meet, the latter's values stand if it has any.
+  /// Puts the block into a table of all nodes; where blocks meet, the latter's values stand if it has any.
   void appendTo(std::vector<float>& table) const;
   /// What appendTo() takes at first.
   static std::vector<float> emptyTable();
@@ -67,8 +63,9 @@ class FineRows {
   /// The table in the middle of a cell.
   Eigen::Vector3d between(int column, int row);
 
+  int m_firstColumn;
   int m_firstRow;
-  int m_rowCount;
+  int m_side;
   std::vector<float> m_nodes;  ///< three floats each; NaN where none is filled
   std::vector<bool> m_isGood;  ///< cells
 };
