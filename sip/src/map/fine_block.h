@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -33,17 +34,18 @@ class FineBlock {
     }
   }
   /// Once all are filled: finds the square's cells that are within the tolerance between their nodes.
-  /// @param metrics  at the square's corners (low-low, high-low, low-high, high-high): the length of metric * error is
-  ///                 about CIEDE2000
+  /// @param metrics  at the square's corners, the strictest of which counts: the length of metric * error is about
+  ///                 CIEDE2000
   template <typename Value>
   void check(const Square& square, const Value& value, const std::array<const Eigen::Matrix3d*, 4>& metrics,
              double tolerance) {
     const auto middle = [&](int cell) { return (cell + 0.5) / square.side; };
     for (int j = 0; j < square.side; ++j) {
       for (int i = 0; i < square.side; ++i) {
-        const Eigen::Matrix3d& metric = *metrics[(2 * i >= square.side ? 1U : 0U) + (2 * j >= square.side ? 2U : 0U)];
         const Eigen::Vector3d error = between(square.column + i, square.row + j) - value(middle(i), middle(j));
-        m_isGood[cellIndex(square.column + i, square.row + j)] = (metric * error).norm() <= tolerance;
+        m_isGood[cellIndex(square.column + i, square.row + j)] =
+            std::all_of(metrics.begin(), metrics.end(),
+                        [&](const Eigen::Matrix3d* metric) { return (*metric * error).norm() <= tolerance; });
       }
     }
   }

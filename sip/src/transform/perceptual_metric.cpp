@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kProbeLuminance = 0.18;
 constexpr double kLeastRelativeLuminance = 0.02;
+constexpr double kNoLight = 0.01;
+constexpr double kPerSize = 4.0;
 constexpr double kLeastLuminance = 1e-30;
 
 /// CIELAB's compression and its slope, the linear part continued below zero (CIE 015:2018, eq. 8.6).
@@ -35,8 +37,11 @@ PerceptualMetric::PerceptualMetric(const spectral::RgbSpace& space)
 
 Eigen::Matrix3d PerceptualMetric::at(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const {
   const Eigen::Vector3d in = m_relativeFromRgb * input;
-  const double luminance = std::max({in.y(), kLeastRelativeLuminance * in.cwiseAbs().maxCoeff(), kLeastLuminance});
-  const double exposure = kProbeLuminance / luminance;
+  const double size = std::max(in.cwiseAbs().maxCoeff(), kLeastLuminance);
+  if (in.y() < kNoLight * size) {
+    return kPerSize / size * m_relativeFromRgb;
+  }
+  const double exposure = kProbeLuminance / std::max(in.y(), kLeastRelativeLuminance * size);
   return atRelative(exposure * (m_relativeFromRgb * output)) * (exposure * m_relativeFromRgb);
 }
 

@@ -14,8 +14,9 @@ class PerceptualMetric {
   explicit PerceptualMetric(const spectral::RgbSpace& space);
 
   /// Matrix G: |G * error| is the CIEDE2000 between `output + error` and `output` for a small error, both scaled by the
-  /// exposure that puts `input` at Y = 0.18. Where the input's luminance is small or negative it counts as a fiftieth
-  /// of the largest tristimulus.
+  /// exposure that puts `input` at Y = 0.18. Luminance under a fiftieth of the largest tristimulus counts as that.
+  /// Under a hundredth there is no light but deep violet, and no CIEDE2000 to speak of: an error as large as the
+  /// largest tristimulus then counts as 4.
   Eigen::Matrix3d at(const Eigen::Vector3d& input, const Eigen::Vector3d& output) const;
 
   /// The same for a colour and errors that are XYZ over the working white, at their own exposure.
