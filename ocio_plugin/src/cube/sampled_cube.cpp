@@ -93,7 +93,7 @@ std::vector<Eigen::Vector3f> sampledCube(const sip::SpectralTransform& transform
     toEngine.apply(plane(blue));
   });
   if (size >= kMapFromSize) {
-    const sip::HomogeneousMap map = sip::buildHomogeneousMap(transform);
+    const sip::HomogeneousMap map = sip::buildHomogeneousMap(transform, sip::kDefaultMapTolerance, parallelFor);
     parallelFor(size, [&](int blue) { map.apply(plane(blue)); });
   } else {
     // Every diagonal starts on one of the three faces through black.

@@ -289,9 +289,11 @@ HWY_INLINE void finish(const Map& map, const Block& block, std::size_t at, const
 /// Brings a vector of pixels near, from `pixel` on: the processor does not see that far by itself.
 HWY_INLINE void prefetch(const float* pixels, std::size_t pixel, std::size_t pixelCount) {
   constexpr std::size_t kFloatsPerLine = 16;
-  const std::size_t end = std::min(4 * (pixel + hn::Lanes(Float())), 4 * pixelCount);
-  for (std::size_t i = 4 * pixel; i < end; i += kFloatsPerLine) {
-    hwy::Prefetch(pixels + i);
+  constexpr std::size_t kLanes = hn::MaxLanes(Float());
+  if (pixel + kLanes <= pixelCount) {
+    for (std::size_t i = 0; i < 4 * kLanes; i += kFloatsPerLine) {
+      hwy::Prefetch(pixels + 4 * pixel + i);
+    }
   }
 }
 
