@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metamer/sip/homogeneous_map.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 #include <memory>
-#include <memory_resource>
 #include <optional>
 #include <tuple>
-#include <unordered_map>
 
 #include "map/adini_element.h"
+#include "map/face_nodes.h"
 #include "map/fine_block.h"
-#include "map/known_points.h"
 #include "map/linear_cone.h"
 #include "map/map_memory_state.h"
+#include "map/map_source.h"
 #include "metamer/spectral/argument_checks.h"
-#include "transform/perceptual_metric.h"
 
 namespace metamer::sip {
 
@@ -30,47 +26,11 @@ using Map = HomogeneousMap;
 /// reflectances can make may pass the middle by.
 constexpr int kEdgeCheckLevels = 3;
 
-/// Cube coordinates from the white-normalised response (a, b, c): (2a - s, 2b - s, s), s the sum. On the front face
-/// they are chromaticity stretched to -1 ... 1; all that reflectances can make lies there.
-Eigen::Matrix3d cubeFromResponse() {
-  Eigen::Matrix3d matrix;
-  matrix << 1, -1, -1,  //
-      -1, 1, -1,        //
-      1, 1, 1;
-  return matrix;
-}
-
-/// Scaled by a power of two so that no float32 colour's coordinates overflow.
-Eigen::Matrix3d withoutOverflow(const Eigen::Matrix3d& cubeFromRgb) {
-  int exponent = 0;
-  std::frexp(cubeFromRgb.cwiseAbs().rowwise().sum().maxCoeff(), &exponent);
-  return std::ldexp(1.0, -exponent) * cubeFromRgb;
-}
-
-/// What all parts of a map are built from.
-struct Source {
-  Source(const SpectralTransform& given, double givenTolerance, int givenFewerLevels)
-      : transform(given),
-        tolerance(givenTolerance),
-        fewerLevels(givenFewerLevels),
-        cubeFromRgb(withoutOverflow(cubeFromResponse() * given.responseFromRgb())),
-        rgbFromCube(cubeFromRgb.inverse()),
-        metric(given.space()) {}
-
-  const SpectralTransform& transform;
-  double tolerance;
-  int fewerLevels;
-  Eigen::Matrix3d cubeFromRgb;
-  Eigen::Matrix3d rgbFromCube;
-  PerceptualMetric metric;
-  std::vector<KnownPoint> known = knownPoints(transform, cubeFromRgb, metric);
-};
-
 /// A square of a face's root cells, with the patches they need. Built on its own, so that the threads that build the
 /// parts cannot change what comes out.
 class Part {
  public:
-  Part(const Source& source, int face, int firstColumn, int firstRow)
+  Part(const MapSource& source, int face, int firstColumn, int firstRow)
       : m_source(source), m_face(face), m_firstColumn(firstColumn), m_firstRow(firstRow) {
     if (face == Map::kFrontFace) {
       m_fine.emplace(firstColumn * kFinePerRoot, firstRow * kFinePerRoot, kSide * kFinePerRoot);
@@ -82,11 +42,7 @@ class Part {
 
   /// @param memory  of this part; may be null
   void build(PartMemory* memory) {
-    m_table = std::make_unique<NodeTable>();
-    m_memory = memory;
-    if (memory != nullptr) {
-      memory->beginBuild();
-    }
+    m_nodes = std::make_unique<FaceNodes>(m_source, m_face, memory);
     constexpr int kRootSteps = 1 << (Map::kMaximumDepth + 1);
     std::vector<std::size_t> open;  // cells that are not judged yet, all of one level
     for (int j = m_firstRow; j < m_firstRow + kSide; ++j) {
@@ -115,7 +71,8 @@ class Part {
     }
     m_smooth.clear();
     m_cells.clear();
-    m_table.reset();
+    m_statistics.solves = m_nodes->solveCount();
+    m_nodes.reset();
   }
 
   /// Puts the part into a map whose roots and fine table have their room.
@@ -143,14 +100,6 @@ class Part {
   }
 
  private:
-  /// The transform at a point of a face, as a function of the face's coordinates.
-  struct Node {
-    SpectralTransform::Point point;
-    bool hasSlopes = false;
-    Eigen::Vector3d alongU;  ///< derivative per unit of the first face coordinate
-    Eigen::Vector3d alongV;
-    Eigen::Matrix3d metric;  ///< length of metric * error is about CIEDE2000
-  };
   /// A square of a face: a patch, or four smaller ones. Lengths are in half finest cells.
   struct Cell {
     int u;
@@ -159,7 +108,7 @@ class Part {
     int level = 0;
     std::size_t firstPart = 0;  ///< of four; 0: none
     double excess = 0.0;        ///< largest error at the checked points, over the tolerance
-    std::array<Node*, 4> corners = {};
+    std::array<FaceNode*, 4> corners = {};
     Adini patch = {};
   };
   struct Placed {
@@ -169,51 +118,11 @@ class Part {
     std::uint32_t patch;
   };
 
-  int steps() const { return 1 << (Map::kRootBits[static_cast<std::size_t>(m_face)] + Map::kMaximumDepth + 1); }
-  int firstAxis() const { return (m_face / 2 + 1) % 3; }
-  int secondAxis() const { return (m_face / 2 + 2) % 3; }
-
-  /// The node at a place; one that is new waits for solveNodes().
-  Node* node(int u, int v) {
-    const std::uint64_t key = (static_cast<std::uint64_t>(u) << 20) | static_cast<std::uint64_t>(v);
-    const auto [place, isNew] = m_table->nodes.try_emplace(key);
-    Node& node = place->second;
-    if (isNew) {
-      Eigen::Vector3d cube;
-      cube[m_face / 2] = m_face % 2 == 0 ? 1.0 : -1.0;
-      cube[firstAxis()] = 2.0 * u / steps() - 1.0;
-      cube[secondAxis()] = 2.0 * v / steps() - 1.0;
-      node.point.rgb = m_source.rgbFromCube * cube;
-      if (m_memory != nullptr) {
-        node.point.kept = m_memory->at(key);
-      }
-      m_unsolved.push_back(&node);
-    }
-    return &node;
-  }
-
-  /// Solves the nodes that wait, side by side.
-  void solveNodes() {
-    std::vector<SpectralTransform::Point> points;
-    points.reserve(m_unsolved.size());
-    for (const Node* node : m_unsolved) {
-      points.push_back(node->point);
-    }
-    m_source.transform.solve(points);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      Node& node = *m_unsolved[k];
-      node.point = points[k];
-      node.metric = m_source.metric.at(node.point.rgb, node.point.value);
-    }
-    m_statistics.solves += static_cast<int>(points.size());
-    m_unsolved.clear();
-  }
-
   /// Of the colours whose spectra are known, in a cell.
   double excessAtKnown(const Cell& cell) const {
     double most = 0.0;
     for (const KnownPoint& known : m_source.known) {
-      const Eigen::Vector2d at = (steps() * known.place - Eigen::Vector2d(cell.u, cell.v)) / cell.side;
+      const Eigen::Vector2d at = (m_nodes->steps() * known.place - Eigen::Vector2d(cell.u, cell.v)) / cell.side;
       if (at.minCoeff() >= 0.0 && at.maxCoeff() <= 1.0) {
         const Eigen::Vector3d error = evaluate(cell.patch, at.x(), at.y()) - known.value;
         most = std::max(most, (known.metric * error).norm() / m_source.tolerance);
@@ -222,25 +131,16 @@ class Part {
     return most;
   }
 
-  void addSlopes(Node& node) const {
-    if (!node.hasSlopes) {
-      const Eigen::Matrix3d slope = m_source.transform.slopeAt(node.point);
-      node.alongU = slope * m_source.rgbFromCube.col(firstAxis());
-      node.alongV = slope * m_source.rgbFromCube.col(secondAxis());
-      node.hasSlopes = true;
-    }
-  }
-
   Adini patchOver(const Cell& cell) const {
     const auto corner = [&](std::size_t k) {
-      const Node& node = *cell.corners[k];
+      const FaceNode& node = *cell.corners[k];
       return AdiniCorner{node.point.value, node.alongU, node.alongV};
     };
-    return adiniElement({corner(0), corner(1), corner(2), corner(3)}, 2.0 * cell.side / steps());
+    return adiniElement({corner(0), corner(1), corner(2), corner(3)}, 2.0 * cell.side / m_nodes->steps());
   }
 
   /// Error of a patch at a checked point over the tolerance there.
-  double excess(const Adini& patch, const Node& at, double u, double v) const {
+  double excess(const Adini& patch, const FaceNode& at, double u, double v) const {
     return (at.metric * (evaluate(patch, u, v) - at.point.value)).norm() / m_source.tolerance;
   }
 
@@ -251,9 +151,9 @@ class Part {
       Eigen::Map<Eigen::Vector3f>(patch.coefficients.data() + 3 * term) = cell.patch[term].cast<float>();
     }
     // All exact: powers of two, and multiples of them.
-    const std::array<float, 2> low = {static_cast<float>(cell.u) / static_cast<float>(steps()),
-                                      static_cast<float>(cell.v) / static_cast<float>(steps())};
-    const int perUnit = steps() / cell.side;
+    const std::array<float, 2> low = {static_cast<float>(cell.u) / static_cast<float>(m_nodes->steps()),
+                                      static_cast<float>(cell.v) / static_cast<float>(m_nodes->steps())};
+    const int perUnit = m_nodes->steps() / cell.side;
     patch.scale = static_cast<float>(perUnit);
     for (std::size_t k = 0; k < 2; ++k) {
       patch.offset[k] = (0.5F - low[k]) * patch.scale;
@@ -275,19 +175,20 @@ class Part {
   /// Judges cells of one level. @return the parts of those that are not good enough
   std::vector<std::size_t> judged(const std::vector<std::size_t>& cells) {
     // The middle first: most patches that fail, fail there.
-    std::vector<const Node*> middles;
+    std::vector<const FaceNode*> middles;
     for (const std::size_t index : cells) {
       Cell& cell = m_cells[index];
       const auto [u, v, side] = std::tuple(cell.u, cell.v, cell.side);
-      cell.corners = {node(u, v), node(u + side, v), node(u, v + side), node(u + side, v + side)};
-      middles.push_back(node(u + side / 2, v + side / 2));
+      cell.corners = {m_nodes->at(u, v), m_nodes->at(u + side, v), m_nodes->at(u, v + side),
+                      m_nodes->at(u + side, v + side)};
+      middles.push_back(m_nodes->at(u + side / 2, v + side / 2));
     }
-    solveNodes();
-    std::vector<std::array<const Node*, 4>> edges;
+    m_nodes->solve();
+    std::vector<std::array<const FaceNode*, 4>> edges;
     for (std::size_t k = 0; k < cells.size(); ++k) {
       Cell& cell = m_cells[cells[k]];
-      for (Node* corner : cell.corners) {
-        addSlopes(*corner);
+      for (FaceNode* corner : cell.corners) {
+        m_nodes->addSlopes(*corner);
       }
       cell.patch = patchOver(cell);
       cell.excess = excess(cell.patch, *middles[k], 0.5, 0.5);
@@ -296,11 +197,11 @@ class Part {
       }
       if (needsEdges(cell)) {
         const auto [u, v, side] = std::tuple(cell.u, cell.v, cell.side);
-        edges.push_back(
-            {node(u + side / 2, v), node(u, v + side / 2), node(u + side, v + side / 2), node(u + side / 2, v + side)});
+        edges.push_back({m_nodes->at(u + side / 2, v), m_nodes->at(u, v + side / 2),
+                         m_nodes->at(u + side, v + side / 2), m_nodes->at(u + side / 2, v + side)});
       }
     }
-    solveNodes();
+    m_nodes->solve();
     std::vector<std::size_t> parts;
     auto edge = edges.begin();
     for (const std::size_t index : cells) {
@@ -334,7 +235,7 @@ class Part {
     }
     m_statistics.largestError = std::max(m_statistics.largestError, cell.excess * m_source.tolerance);
     placed.push_back({cell.level, i, j, store(cell)});
-    const int fine = steps() / Map::kFineSide;
+    const int fine = m_nodes->steps() / Map::kFineSide;
     if (m_fine && cell.side >= fine) {
       const auto& corners = cell.corners;
       const Smooth& smooth = m_smooth.emplace_back(
@@ -375,7 +276,7 @@ class Part {
 
   static constexpr int kFinePerRoot = Map::kFineSide >> Map::kRootBits[Map::kFrontFace];
 
-  const Source& m_source;
+  const MapSource& m_source;
   int m_face;
   int m_firstColumn;
   int m_firstRow;
@@ -385,14 +286,7 @@ class Part {
   std::optional<FineBlock> m_fine;
   std::vector<Smooth> m_smooth;
   Map::Statistics m_statistics;
-  /// Nodes by position. None is dropped before all are.
-  struct NodeTable {
-    std::pmr::monotonic_buffer_resource memory;
-    std::pmr::unordered_map<std::uint64_t, Node> nodes{&memory};
-  };
-  std::unique_ptr<NodeTable> m_table;
-  PartMemory* m_memory = nullptr;
-  std::vector<Node*> m_unsolved;
+  std::unique_ptr<FaceNodes> m_nodes;
   std::vector<Cell> m_cells;  // roots first
 };
 
@@ -407,7 +301,7 @@ HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double to
   if (map.identity) {
     return map;
   }
-  const Source source(transform, tolerance, fewerLevels);
+  const MapSource source(transform, tolerance, fewerLevels);
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.cubeFromRgb.data()) = source.cubeFromRgb.cast<float>();
   Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(map.linearMatrix.data()) =
       transform.linearMatrix().cast<float>();
