@@ -354,10 +354,9 @@ void solveLanes(const SoftBoundSystem& system, NewtonLanes& lanes, std::size_t c
   }
 }
 
-/// Wide vectors take longer for each step: they are for those that come together.
 void solveByNewtonHere(const SoftBoundSystem& system, NewtonLanes& lanes, std::size_t count) {
-  if (count <= 2) {
-    solveLanes<hn::CappedTag<double, 2>>(system, lanes, count);
+  if (count <= NewtonLanes::kFew) {
+    solveLanes<hn::CappedTag<double, NewtonLanes::kFew>>(system, lanes, count);
   } else {
     solveLanes<hn::CappedTag<double, NewtonLanes::kLanes>>(system, lanes, count);
   }

@@ -21,6 +21,8 @@ struct SoftBoundSystem {
 /// Some problems side by side: every number of a band, lane by lane.
 struct NewtonLanes {
   static constexpr std::size_t kLanes = 8;
+  /// No more problems than these need no more lanes than these: wide vectors take longer for each step.
+  static constexpr std::size_t kFew = 2;
   template <std::size_t rows>
   using Rows = std::array<double, rows * kLanes>;
 

@@ -186,7 +186,8 @@ bool SoftBoundSolver::isSmoothEnough(Problem& problem) const {
 
 void SoftBoundSolver::fill(NewtonLanes& lanes, std::span<Problem* const> group) const {
   lanes.hasPrior = group.front()->prior != nullptr;
-  for (std::size_t lane = 0; lane < NewtonLanes::kLanes; ++lane) {
+  const std::size_t laneCount = group.size() <= NewtonLanes::kFew ? NewtonLanes::kFew : NewtonLanes::kLanes;
+  for (std::size_t lane = 0; lane < laneCount; ++lane) {
     lanes.isUsed[lane] = lane < group.size() ? 1.0 : 0.0;
     // Idle lanes repeat the last problem: what is computed there is not looked at.
     const Problem& problem = *group[std::min(lane, group.size() - 1)];

@@ -191,9 +191,10 @@ SpectralTransform::SpectralTransform(SpectralTransform&&) noexcept = default;
 SpectralTransform& SpectralTransform::operator=(SpectralTransform&&) noexcept = default;
 
 Eigen::Vector3d SpectralTransform::apply(const Eigen::Vector3d& rgb) const {
-  Eigen::Vector3d result = rgb;
-  apply(std::span(&result, 1));
-  return result;
+  Point point;
+  point.rgb = rgb;
+  solveTogether(std::span(&point, 1));
+  return point.value;
 }
 
 void SpectralTransform::apply(std::span<Eigen::Vector3d> colours) const {
