@@ -80,11 +80,11 @@ class Part {
     const auto firstIndex = static_cast<std::uint32_t>(map.patchIndex.size());
     const auto firstPatch = static_cast<std::uint32_t>(map.patches.size());
     const auto face = static_cast<std::size_t>(m_face);
-    for (int j = 0; j < kSide; ++j) {
-      for (int i = 0; i < kSide; ++i) {
-        const int root = ((m_firstRow + j) << Map::kRootBits[face]) + m_firstColumn + i;
-        map.roots[map.faceOffset[face] + static_cast<std::uint32_t>(root)] =
-            m_roots[static_cast<std::size_t>(kSide * j + i)] + (firstIndex << Map::kDepthBits);
+    auto own = m_roots.begin();
+    for (int row = m_firstRow; row < m_firstRow + kSide; ++row) {
+      for (int column = m_firstColumn; column < m_firstColumn + kSide; ++column) {
+        const auto root = static_cast<std::uint32_t>((row << Map::kRootBits[face]) + column);
+        map.roots[map.faceOffset[face] + root] = *own++ + (firstIndex << Map::kDepthBits);
       }
     }
     for (const std::uint32_t patch : m_patchIndex) {

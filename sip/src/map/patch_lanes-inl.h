@@ -213,7 +213,7 @@ HWY_INLINE void applyPatch(const Map::Patch& patch, const Places& places, Mask m
 }
 
 /// Colours beyond the front face are rare (strong negatives): one lane at a time.
-HWY_NOINLINE void applyFar(const Map& map, const Planes& pixels, Mask far, Colours& result) {
+inline HWY_NOINLINE void applyFar(const Map& map, const Planes& pixels, Mask far, Colours& result) {
   const Float d;
   HWY_ALIGN std::array<std::array<float, kMostLanes>, 3> lanes;
   hn::Store(pixels.px, d, lanes[0].data());

@@ -63,16 +63,16 @@ class Rounds {
     M active = hn::Gt(given(m_lanes.isUsed, 0), zero());
     V rounds = zero();
     V reached = objective<false>(zero(), active);
-    for (int round = 0; !hn::AllFalse(d, active) && round < kMostRounds; ++round) {
+    for (int round = 0; !hn::AllFalse(m_d, active) && round < kMostRounds; ++round) {
       rounds = hn::Add(rounds, hn::IfThenElseZero(active, one()));
       solveSystem();
       const M goesOn = hn::AndNot(guessHolds(), active);
       V step = one();
-      if (!hn::AllFalse(d, goesOn)) {
+      if (!hn::AllFalse(m_d, goesOn)) {
         V value = objective<true>(step, hn::Gt(zero(), one()));
         M worse = hn::And(goesOn, hn::Gt(value, reached));
-        for (int halving = 0; !hn::AllFalse(d, worse) && halving < kMostHalvings; ++halving) {
-          step = hn::IfThenElse(worse, hn::Mul(step, hn::Set(d, 0.5)), step);
+        for (int halving = 0; !hn::AllFalse(m_d, worse) && halving < kMostHalvings; ++halving) {
+          step = hn::IfThenElse(worse, hn::Mul(step, hn::Set(m_d, 0.5)), step);
           value = hn::IfThenElse(worse, objective<true>(step, worse), value);
           worse = hn::And(worse, hn::Gt(value, reached));
         }
@@ -92,29 +92,29 @@ class Rounds {
     V bend;
   };
 
-  HWY_INLINE V zero() const { return hn::Zero(d); }
-  HWY_INLINE V one() const { return hn::Set(d, 1.0); }
+  HWY_INLINE V zero() const { return hn::Zero(m_d); }
+  HWY_INLINE V one() const { return hn::Set(m_d, 1.0); }
   template <std::size_t size>
   HWY_INLINE V given(const std::array<double, size>& rows, int row) const {
-    return hn::LoadU(d, rows.data() + static_cast<std::size_t>(row) * kStride + m_first);
+    return hn::LoadU(m_d, rows.data() + static_cast<std::size_t>(row) * kStride + m_first);
   }
   template <std::size_t size>
   HWY_INLINE void take(std::array<double, size>& rows, int row, V value) const {
-    hn::StoreU(value, d, rows.data() + static_cast<std::size_t>(row) * kStride + m_first);
+    hn::StoreU(value, m_d, rows.data() + static_cast<std::size_t>(row) * kStride + m_first);
   }
   HWY_INLINE V at(const Scratch<kConvergedBandCount>& rows, int row) const {
-    return hn::LoadU(d, rows.data() + static_cast<std::size_t>(row) * hn::Lanes(d));
+    return hn::LoadU(m_d, rows.data() + static_cast<std::size_t>(row) * hn::Lanes(m_d));
   }
   HWY_INLINE void put(Scratch<kConvergedBandCount>& rows, int row, V value) const {
-    hn::StoreU(value, d, rows.data() + static_cast<std::size_t>(row) * hn::Lanes(d));
+    hn::StoreU(value, m_d, rows.data() + static_cast<std::size_t>(row) * hn::Lanes(m_d));
   }
-  HWY_INLINE V weight(int band, int channel) const { return hn::Set(d, m_system.weights[3 * band + channel]); }
+  HWY_INLINE V weight(int band, int channel) const { return hn::Set(m_d, m_system.weights[3 * band + channel]); }
 
   HWY_INLINE Chain emptyChain() const { return {zero(), {zero(), zero(), zero()}, zero()}; }
 
   /// @param diagonal  of the roughness: 1 at the ends, else 2
   HWY_INLINE void stepInward(Chain& chain, int band, double diagonal) {
-    const V pivot = hn::Sub(hn::Add(hn::Set(d, diagonal), given(m_lanes.clamp, band)), chain.inverse);
+    const V pivot = hn::Sub(hn::Add(hn::Set(m_d, diagonal), given(m_lanes.clamp, band)), chain.inverse);
     for (int k = 0; k < 3; ++k) {
       chain.weights[k] = hn::Add(weight(band, k), hn::Mul(chain.weights[k], chain.inverse));
     }
@@ -155,7 +155,8 @@ class Rounds {
     }
     Chain middle;
     middle.inverse = hn::Div(
-        one(), hn::Sub(hn::Sub(hn::Add(hn::Set(d, 2.0), given(m_lanes.clamp, m_middle)), left.inverse), right.inverse));
+        one(),
+        hn::Sub(hn::Sub(hn::Add(hn::Set(m_d, 2.0), given(m_lanes.clamp, m_middle)), left.inverse), right.inverse));
     for (int k = 0; k < 3; ++k) {
       middle.weights[k] = hn::Add(hn::Add(weight(m_middle, k), hn::Mul(left.weights[k], left.inverse)),
                                   hn::Mul(right.weights[k], right.inverse));
@@ -172,7 +173,7 @@ class Rounds {
   /// The multipliers of the three equations, by cofactors, and once more for what is left: lights that hardly tell two
   /// channels apart lose half the digits.
   void solveEquations() {
-    const V slack = hn::Set(d, m_system.slack);
+    const V slack = hn::Set(m_d, m_system.slack);
     const V a = hn::Add(m_seen[0], slack);
     const V b = m_seen[1];
     const V c = m_seen[2];
@@ -241,13 +242,13 @@ class Rounds {
       }
     }
     const M isFree = hn::Eq(m_clamped, zero());  // for which the system has no solution of its own
-    if (!hn::AllFalse(d, isFree)) {
+    if (!hn::AllFalse(m_d, isFree)) {
       m_most = hn::IfThenZeroElse(isFree, m_most);
       m_mostWrong = hn::IfThenZeroElse(isFree, m_mostWrong);
       for (int b = 0; b < m_count; ++b) {
         V smooth = zero();
         for (int k = 0; k < 3; ++k) {
-          smooth = hn::Add(smooth, hn::Mul(hn::Set(d, m_system.smooth[3 * b + k]), given(m_lanes.tristimulus, k)));
+          smooth = hn::Add(smooth, hn::Mul(hn::Set(m_d, m_system.smooth[3 * b + k]), given(m_lanes.tristimulus, k)));
         }
         if constexpr (kHasPrior) {
           smooth = hn::Add(smooth, given(m_lanes.prior, b));
@@ -268,7 +269,7 @@ class Rounds {
   }
 
   /// Where the bands below zero are those of the guess.
-  M guessHolds() const { return hn::Not(hn::Gt(m_mostWrong, hn::Mul(hn::Set(d, kNothing), m_most))); }
+  M guessHolds() const { return hn::Not(hn::Gt(m_mostWrong, hn::Mul(hn::Set(m_d, kNothing), m_most))); }
 
   /// Of lanes that are to go part of the way from where they are; the others go to m_next.
   HWY_INLINE V between(int band, V step, M partly) const {
@@ -303,9 +304,9 @@ class Rounds {
         }
       }
     }
-    V sum = hn::Add(rough, hn::Mul(hn::Set(d, m_system.price), below));
+    V sum = hn::Add(rough, hn::Mul(hn::Set(m_d, m_system.price), below));
     if (m_system.relaxation > 0.0) {
-      sum = hn::Add(sum, hn::Mul(hn::Set(d, m_system.relaxation),
+      sum = hn::Add(sum, hn::Mul(hn::Set(m_d, m_system.relaxation),
                                  dot(missed[0], missed[0], missed[1], missed[1], missed[2], missed[2])));
     }
     return sum;
@@ -314,7 +315,7 @@ class Rounds {
   /// Lanes that were active take the step, and those that go on the bands that it leaves below zero as the next guess.
   void advance(M active, M goesOn, V step) {
     const M partly = hn::Lt(step, one());
-    const V price = hn::Set(d, m_system.price);
+    const V price = hn::Set(m_d, m_system.price);
     m_clamped = zero();
     for (int b = 0; b < m_count; ++b) {
       const V value = hn::IfThenElse(active, between(b, step, partly), given(m_lanes.spectrum, b));
@@ -325,7 +326,7 @@ class Rounds {
     }
   }
 
-  const D d{};
+  const D m_d{};
   const SoftBoundSystem& m_system;
   NewtonLanes& m_lanes;
   std::size_t m_first;
