@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -14,11 +15,11 @@ from PIL import Image
 # CIE 1931 xy of primaries and white. sRGB: IEC 61966-2-1. ACEScg: S-2014-004 (AP1, ACES white).
 SRGB = ((0.64, 0.33), (0.30, 0.60), (0.15, 0.06)), (0.3127, 0.3290)
 ACESCG = ((0.713, 0.293), (0.165, 0.830), (0.128, 0.044)), (0.32168, 0.33767)
-# From ACEScg to an sRGB screen as film would show it: highlights roll off and lose their colour, in place of clipping.
-VIEW = ("ACEScg_to_ACES2065-1", "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-100nit-REC709_2.0", "DISPLAY - CIE-XYZ-D65_to_sRGB")
-VIEW_NAME = "ACES 2.0, SDR, 100 nits, Rec.709"
-# A photograph's white, undone by the view, is as bright as this code, some 20; the whole of it would be 128.
-BRIGHTEST_CODE = 0.98
+# From ACEScg to an sRGB screen as film would show it, as lutgen report has it: highlights roll off and lose their colour, in place of
+# clipping. A photograph's white, undone by the view, is as bright as the code `brightest`, some 20; the whole of it would be 128.
+FILM_VIEW = json.loads((Path(__file__).resolve().parent.parent / "lutgen/pictures/report/page/film_view.json").read_text(encoding="utf-8"))
+VIEW = ("ACEScg_to_ACES2065-1", FILM_VIEW["styles"][0]["style"], FILM_VIEW["screen"])
+VIEW_NAME = f"{FILM_VIEW['styles'][0]['name']}, SDR, 100 nits, Rec.709"
 BRADFORD = np.array([[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]])
 
 
@@ -68,7 +69,7 @@ def scene(file: Path | str) -> np.ndarray:
     """The light that the view shows as this 8-bit sRGB picture, ACEScg: so what is not relit looks as it did."""
     with Image.open(file) as picture:
         codes = np.asarray(picture.convert("RGB"), dtype=np.float32) / 255
-    return _through(np.minimum(codes, BRIGHTEST_CODE), ocio.TRANSFORM_DIR_INVERSE)
+    return _through(np.minimum(codes, FILM_VIEW["brightest"]), ocio.TRANSFORM_DIR_INVERSE)
 
 
 def view(acescg: np.ndarray) -> np.ndarray:

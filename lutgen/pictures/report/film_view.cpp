@@ -4,40 +4,39 @@
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <utility>
+#include <nlohmann/json.hpp>
 
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/spectral/input_error.h"
+#include "report/page_parts.h"
 
 namespace metamer::lutgen {
 namespace {
 
 namespace OCIO = OCIO_NAMESPACE;
 
-/// Name and style, the newest first.
-constexpr std::array<std::pair<const char*, const char*>, 2> kStyles{
-    {{"ACES 2.0", "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-100nit-REC709_2.0"},
-     {"ACES 1.0", "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0"}}};
-constexpr const char* kScreen = "DISPLAY - CIE-XYZ-D65_to_sRGB";
+/// Which transforms of OpenColorIO it is, the newest first: the demo's pictures (demo/pictures.py) read the same file.
+nlohmann::json choice() {
+  return nlohmann::json::parse(pagePart("film_view.json"));
+}
 
-bool has(const char* style) {
+bool has(const std::string& style) {
   const auto registry = OCIO::BuiltinTransformRegistry::Get();
   for (std::size_t k = 0; k < registry->getNumBuiltins(); ++k) {
-    if (std::strcmp(registry->getBuiltinStyle(k), style) == 0) {
+    if (style == registry->getBuiltinStyle(k)) {
       return true;
     }
   }
   return false;
 }
 
-ocio::PixelProcessor processorOf(const char* style, OCIO::TransformDirection direction) {
+ocio::PixelProcessor processorOf(const std::string& style, const std::string& screen,
+                                 OCIO::TransformDirection direction) {
   auto group = OCIO::GroupTransform::Create();
-  for (const char* each : {style, kScreen}) {
+  for (const std::string& each : {style, screen}) {
     auto step = OCIO::BuiltinTransform::Create();
-    step->setStyle(each);
+    step->setStyle(each.c_str());
     group->appendTransform(step);
   }
   group->setDirection(direction);
@@ -54,13 +53,17 @@ void clip(std::span<float> rgba, float highest) {
 }  // namespace
 
 FilmView::FilmView(const spectral::RgbSpace& space, const spectral::RgbSpace& aces) {
-  const auto* found = std::find_if(kStyles.begin(), kStyles.end(), [](const auto& each) { return has(each.second); });
-  if (found == kStyles.end()) {
-    throw spectral::InputError("OpenColorIO", "view", kStyles[0].first, "is not in this release; link 2.1 or newer");
+  const nlohmann::json chosen = choice();
+  const nlohmann::json& styles = chosen.at("styles");
+  const auto found = std::find_if(styles.begin(), styles.end(), [](const auto& each) { return has(each.at("style")); });
+  if (found == styles.end()) {
+    throw spectral::InputError("OpenColorIO", "view", styles.front().at("name").get<std::string>(),
+                               "is not in this release; link 2.1 or newer");
   }
-  m_name = found->first;
-  const auto show = processorOf(found->second, OCIO::TRANSFORM_DIR_FORWARD);
-  const auto undo = processorOf(found->second, OCIO::TRANSFORM_DIR_INVERSE);
+  m_name = found->at("name");
+  m_brightest = chosen.at("brightest");
+  const auto show = processorOf(found->at("style"), chosen.at("screen"), OCIO::TRANSFORM_DIR_FORWARD);
+  const auto undo = processorOf(found->at("style"), chosen.at("screen"), OCIO::TRANSFORM_DIR_INVERSE);
   m_show = inTurn({between(space, aces), [show](std::span<float> rgba) {
                      show.apply(rgba);
                      clip(rgba, 1.0F);
@@ -69,7 +72,7 @@ FilmView::FilmView(const spectral::RgbSpace& space, const spectral::RgbSpace& ac
 }
 
 void FilmView::undo(std::span<float> rgba) const {
-  clip(rgba, kBrightest);
+  clip(rgba, m_brightest);
   m_undo(rgba);
 }
 
