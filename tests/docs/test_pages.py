@@ -22,6 +22,7 @@ SKIPPED = {
     "export PATH=$PWD/build/install/bin:$PATH": "done by this test, with the build's programs",
     "cmake --install build/release --component ofx": "installs; tests/ofx_host does the same",
     "pip install .": "script/wheel does so",
+    "tar xzf metamer-*": "tests/releases does so, with the archive",
 }
 # Run with METAMER_LONG=1 alone, as they take longer than a few seconds: pages, and beginnings of lines.
 LONG_PAGES = {"compare.md", "configs.md"}

@@ -11,6 +11,7 @@ import os
 import plistlib
 import re
 import subprocess
+import sys
 import tarfile
 import tempfile
 import time
@@ -80,6 +81,35 @@ class Packages(unittest.TestCase):
             table = self.succeed(*prefix, tree / "bin/lutgen", "compare", self.folder / "plain.cube", self.folder / "link.cube", env=own)
             self.assertRegex(table, r"\b0\.0")
             self.assertIn("usage", self.succeed(*prefix, tree / "bin/spectral_ref", "render", "--help", env=own).lower())
+
+    def test_its_manual_leads_to_files_that_are_there(self):
+        manual = self.unpacked() / "share/metamer"
+        pages = [manual / "README.md", *sorted((manual / "docs").rglob("*.md"))]
+        self.assertGreater(len(pages), 25)
+        lost = []
+        for page in pages:
+            text = re.sub(r"^ *```.*?^ *```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+            for link in re.findall(r"\]\(([^)\s#]+)", text):
+                if not re.match(r"[a-z]+:", link) and not (page.parent / link).exists():
+                    lost.append(f"{page.relative_to(manual)}: {link}")
+        self.assertEqual(lost, [])
+
+    def test_the_ten_minute_starts_run_with_it_as_printed(self):
+        """The lines by which README.md unpacks it, then those of each start, by the test of pages."""
+        [archive] = OUT.glob(f"metamer-{VERSION}-linux-*.tar.gz")
+        folder = self.folder / "a reader's"
+        folder.mkdir()
+        (folder / archive.name).symlink_to(archive)
+        [lines] = re.findall(r"^```sh\n(tar xzf metamer-.*?)^```$", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+        told = self.succeed("bash", "-euo", "pipefail", "-c", lines + "command -v lutgen; pwd", cwd=folder).split("\n")
+        tree = folder / archive.name.removesuffix(".tar.gz")
+        self.assertEqual(told[-3:], [str(tree / "bin/lutgen"), str(tree / "try"), ""])
+        names = [page.stem for page in sorted((tree / "share/metamer/docs/start").glob("*.md")) if page.stem != "README"]
+        self.assertEqual(len(names), 4)
+        own = dict(os.environ, METAMER_BIN=str(tree / "bin"), PYTHONPATH=str(tree / "python"))
+        ended = run(sys.executable, "-B", ROOT / "tests/docs/test_pages.py", *(f"Pages.test_{name}" for name in names), env=own)
+        self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+        self.assertIn("Ran 4 tests", ended.stderr)
 
     def test_a_system_without_proc_is_really_without(self):
         self.assertEqual(self.succeed(*WITHOUT_PROC, "ls", "/proc"), "")
