@@ -4,7 +4,7 @@
     build/venv/bin/python demo/fluorescence.py PREFIX OUT.jpg    (PREFIX: where metamer is installed)
 
 The paint is demo/files/dayglo.csv, made of formulae. Each panel is adapted to its light's white, but for the last: of
-black light (365 nm) nothing is seen but what the paint makes of it.
+black light (365 nm) nothing is seen but what the paint makes of it. All are seen through the film-like view of pictures.py.
 """
 
 import csv
@@ -15,14 +15,15 @@ from pathlib import Path
 
 import numpy as np
 import OpenEXR
-from PIL import Image
 
+from contact_sheet import sheet
 from pictures import BRADFORD, acescg_from_srgb, view
 
 ROOT = Path(__file__).resolve().parent.parent
 WIDTH, HEIGHT, SAMPLES = 216, 144, 384
-LIGHTS = {"D65": "{illuminant: D65}", "A": "{illuminant: A}", "FL11": "{illuminant: FL11}", "HP1": "{illuminant: HP1}",
-          "365 nm": "{wavelengths: [355, 365, 375], values: [0, 700, 0]}"}
+BLACK_LIGHT = "black light, 365 nm"
+LIGHTS = {"daylight, D65": "{illuminant: D65}", "light bulb, A": "{illuminant: A}", "fluorescent, FL11": "{illuminant: FL11}",
+          "sodium, HP1": "{illuminant: HP1}", BLACK_LIGHT: "{wavelengths: [355, 365, 375], values: [0, 700, 0]}"}
 SRGB = np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]])
 D65 = np.array([0.95047, 1.0, 1.08883])
 
@@ -74,14 +75,14 @@ def main():
         for name, light in LIGHTS.items():
             xyz = rendered(Path(folder), prefix, light, nm, match)
             floor = xyz[-12:].mean(axis=(0, 1))
-            if name != "365 nm":
+            if name != BLACK_LIGHT:
                 gain = (BRADFORD @ D65) / (BRADFORD @ (floor / floor[1]))
-                xyz = xyz @ (np.linalg.inv(BRADFORD) @ np.diag(gain) @ BRADFORD).T * (0.3 / floor[1])
+                xyz = xyz @ (np.linalg.inv(BRADFORD) @ np.diag(gain) @ BRADFORD).T * (0.55 / floor[1])
             else:
-                xyz = xyz * (0.5 / np.percentile(xyz[..., 1], 99))
-            panels.append(view(xyz @ SRGB.T @ acescg_from_srgb().T))
+                xyz = xyz * (0.9 / np.percentile(xyz[..., 1], 99))
+            panels.append((name, view(xyz @ SRGB.T @ acescg_from_srgb().T)))
             print(name, "floor", floor)
-    Image.fromarray(np.concatenate(panels, axis=1)).save(out, quality=93, subsampling=0)
+    sheet([panels], WIDTH).save(out, quality=93, subsampling=0)
 
 
 if __name__ == "__main__":
