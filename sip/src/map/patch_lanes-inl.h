@@ -82,6 +82,15 @@ HWY_INLINE Vector fused(Vector a, Vector b, Vector c) {
 #endif
 }
 
+/// c - a * b, rounded once.
+HWY_INLINE V fusedRest(V a, V b, V c) {
+#if HWY_NATIVE_FMA
+  return hn::NegMulAdd(a, b, c);
+#else
+  return fused(hn::Neg(a), b, c);
+#endif
+}
+
 HWY_INLINE V dot(const float* row, V x, V y, V z) {
   const Float d;
   return fused(hn::Set(d, row[2]), z, fused(hn::Set(d, row[1]), y, hn::Mul(hn::Set(d, row[0]), x)));
@@ -124,7 +133,7 @@ HWY_INLINE Planes planesOf(const Map& map, V r, V g, V b) {
   // Division by a reciprocal that is rounded once (Markstein 1990): what the first product misses is known exactly.
   const auto over = [&](V channel) {
     const V near = hn::Mul(channel, reciprocal);
-    return fused(fused(hn::Neg(near), largest, channel), reciprocal, near);
+    return fused(fusedRest(near, largest, channel), reciprocal, near);
   };
   const V x = over(r);
   const V y = over(g);
