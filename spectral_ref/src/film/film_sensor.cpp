@@ -22,4 +22,16 @@ Eigen::Matrix<double, kCells, 4> FilmSensor::channels() const {
   return channels;
 }
 
+/// What gathered responses do not take.
+void FilmSensor::addLarge(FilmSums& sums, std::size_t pixel, std::size_t replicate, const Eigen::Array4f& response) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto value = static_cast<double>(response[static_cast<Eigen::Index>(c)]);
+    sums.add(pixel, Film::kColour + c, value);
+    if ((replicate & 1U) != 0) {
+      sums.add(pixel, Film::kHalf + c, value);
+    }
+  }
+  sums.add(pixel, Film::kLuminance + replicate, static_cast<double>(response[3]));
+}
+
 }  // namespace metamer::spectral_ref

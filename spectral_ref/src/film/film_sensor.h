@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "film/gathered_responses.h"
 #include "metamer/spectral_ref/film.h"
 #include "wavelengths/lanes.h"
 
@@ -17,11 +18,11 @@ class FilmSensor {
  public:
   explicit FilmSensor(const FilmSettings& settings);
 
-  /// Adds one path's radiance to a pixel. Not two threads on one pixel.
+  /// Adds one path's radiance to a pixel, its responses by way of `gathered`. Not two threads on one pixel.
   /// A value that is no number or beyond what the film's sums hold is left out and counted.
   template <int C>
-  void add(Film& film, std::size_t pixel, std::size_t replicate, const WavelengthSet<C>& wavelengths,
-           const Lanes<C>& radiance) {
+  void add(Film& film, GatheredResponses& gathered, std::size_t pixel, std::size_t replicate,
+           const WavelengthSet<C>& wavelengths, const Lanes<C>& radiance) {
     const Lanes<C> values = radiance * wavelengths.weight;
     // One test for all: a lane that is no number or out of range shows in the sum of squares.
     const float size = values.square().sum();
@@ -37,14 +38,9 @@ class FilmSensor {
       response += values[k] * m_curves[static_cast<std::size_t>(wavelengths.cell[static_cast<std::size_t>(k)])];
     }
     FilmSums& sums = film.sums();
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto value = static_cast<double>(response[static_cast<Eigen::Index>(c)]);
-      sums.add(pixel, Film::kColour + c, value);
-      if ((replicate & 1U) != 0) {
-        sums.add(pixel, Film::kHalf + c, value);
-      }
+    if (!gathered.add(replicate, response)) {
+      addLarge(sums, pixel, replicate, response);
     }
-    sums.add(pixel, Film::kLuminance + replicate, static_cast<double>(response[3]));
     for (int k = 0; k < C && m_bins.count > 0; ++k) {
       const double place = (static_cast<double>(wavelengths.nm[k]) - m_bins.fromNm) / m_bins.stepNm + 0.5;
       if (place >= 0.0 && place < static_cast<double>(m_bins.count)) {
@@ -63,6 +59,8 @@ class FilmSensor {
 
  private:
   static constexpr float kLargestSquare = 1e22F;
+
+  static void addLarge(FilmSums& sums, std::size_t pixel, std::size_t replicate, const Eigen::Array4f& response);
 
   SpectralBins m_bins;
   /// Responses 0, 1, 2 and luminance by cell: a radiance of 1 gives a luminance of 1.

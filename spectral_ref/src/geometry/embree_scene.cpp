@@ -80,36 +80,48 @@ bool isAlone(RayMask active) {
   return (active & (active - 1U)) == 0;
 }
 
-/// Rays as Embree has them; in place of those that do not count stands one that does.
-void pack(const RayGroup& rays, RayMask active, RTCRay8& packed, EachRay<int>& valid) {
+/// A number of each ray as Embree has it; in place of those that do not count stands one that does.
+METAMER_ALWAYS_INLINE void fill(float* to, const EachRay<float>& from, const EachRay<int>& valid, std::size_t first) {
+  const float instead = from[first];
+  METAMER_RAYS_APART
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    to[i] = valid[i] != 0 ? from[i] : instead;
+  }
+}
+
+METAMER_VECTOR_LANES void pack(const RayGroup& rays, RayMask active, RTCRay8& packed, EachRay<int>& valid) {
   const auto first = static_cast<std::size_t>(std::countr_zero(active));
   for (std::size_t i = 0; i < kRaysTogether; ++i) {
     valid[i] = -static_cast<int>((active >> i) & 1U);
   }
-  const bool areAll = active == kAllRays;
-  const auto fill = [&](float* to, const EachRay<float>& from) {
-    if (areAll) {
-      std::copy(from.begin(), from.end(), to);
-      return;
-    }
-    const float instead = from[first];
-    for (std::size_t i = 0; i < kRaysTogether; ++i) {
-      to[i] = valid[i] != 0 ? from[i] : instead;
-    }
-  };
-  fill(packed.org_x, rays.origin.x);
-  fill(packed.org_y, rays.origin.y);
-  fill(packed.org_z, rays.origin.z);
-  fill(packed.dir_x, rays.direction.x);
-  fill(packed.dir_y, rays.direction.y);
-  fill(packed.dir_z, rays.direction.z);
-  fill(packed.tfar, rays.most);
+  fill(packed.org_x, rays.origin.x, valid, first);
+  fill(packed.org_y, rays.origin.y, valid, first);
+  fill(packed.org_z, rays.origin.z, valid, first);
+  fill(packed.dir_x, rays.direction.x, valid, first);
+  fill(packed.dir_y, rays.direction.y, valid, first);
+  fill(packed.dir_z, rays.direction.z, valid, first);
+  fill(packed.tfar, rays.most, valid, first);
   for (std::size_t i = 0; i < kRaysTogether; ++i) {
     packed.tnear[i] = 0.0F;
     packed.time[i] = 0.0F;
     packed.mask[i] = 0xffffffffU;
     packed.id[i] = 0;
     packed.flags[i] = 0;
+  }
+}
+
+/// Where rays end, those that hit nothing included.
+METAMER_VECTOR_LANES void unpack(const RayGroup& rays, const RTCRayHit8& query, HitGroup& hits) {
+  METAMER_RAYS_APART
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    const float distance = query.ray.tfar[i];
+    hits.position.x[i] = rays.origin.x[i] + rays.direction.x[i] * distance;
+    hits.position.y[i] = rays.origin.y[i] + rays.direction.y[i] * distance;
+    hits.position.z[i] = rays.origin.z[i] + rays.direction.z[i] * distance;
+    hits.distance[i] = distance;
+    hits.u[i] = query.hit.u[i];
+    hits.v[i] = query.hit.v[i];
+    hits.primitive[i] = query.hit.primID[i];
   }
 }
 
@@ -197,28 +209,20 @@ EmbreeScene::EmbreeScene(const Scene& scene) : m_handles(std::make_unique<Handle
 
 EmbreeScene::~EmbreeScene() = default;
 
-void EmbreeScene::describe(const Ray& ray, unsigned geometry, unsigned primitive, const Vec3& meshNormal,
-                           Hit& hit) const {
-  hit.position = ray.origin + ray.direction * hit.distance;
-  hit.primitive = primitive;
+EmbreeScene::HitSurface EmbreeScene::surfaceAt(unsigned geometry, unsigned primitive, const Vec3& place,
+                                               const Vec3& meshNormal) const {
   if (geometry == kRectangles) {
     const ShapeRecord& record = m_rectangles[primitive];
-    hit.normal = record.normal;
-    hit.material = record.material;
-    hit.emitter = record.emitter;
-  } else if (geometry == kSpheres) {
-    const ShapeRecord& record = m_spheres[primitive];
-    hit.normal = (hit.position - record.center).normalized();
-    // Back onto the sphere: the distance along a long ray carries more error than its radius does.
-    hit.position = record.center + hit.normal * record.radius;
-    hit.material = record.material;
-    hit.emitter = record.emitter;
-  } else {
-    const MeshRecord& record = m_meshes[geometry - kFirstMesh];
-    hit.normal = meshNormal.normalized();
-    hit.material = record.material;
-    hit.emitter = record.emitter;
+    return {place, record.normal, record.material, record.emitter};
   }
+  if (geometry == kSpheres) {
+    const ShapeRecord& record = m_spheres[primitive];
+    const Vec3 normal = (place - record.center).normalized();
+    // Back onto the sphere: the distance along a long ray carries more error than its radius does.
+    return {record.center + normal * record.radius, normal, record.material, record.emitter};
+  }
+  const MeshRecord& record = m_meshes[geometry - kFirstMesh];
+  return {place, meshNormal.normalized(), record.material, record.emitter};
 }
 
 bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
@@ -233,7 +237,13 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
   hit.distance = query.ray.tfar;
   hit.u = query.hit.u;
   hit.v = query.hit.v;
-  describe(ray, query.hit.geomID, query.hit.primID, {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}, hit);
+  hit.primitive = query.hit.primID;
+  const HitSurface surface = surfaceAt(query.hit.geomID, query.hit.primID, ray.origin + ray.direction * hit.distance,
+                                       {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z});
+  hit.position = surface.position;
+  hit.normal = surface.normal;
+  hit.material = surface.material;
+  hit.emitter = surface.emitter;
   return true;
 }
 
@@ -256,19 +266,19 @@ RayMask EmbreeScene::intersect(const RayGroup& rays, RayMask active, HitGroup& h
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   ask(rtcIntersect8, course, query, valid.data(), m_handles->scene.get());
+  unpack(rays, query, hits);
   RayMask found = 0;
   forEachRay(active, [&](std::size_t i) {
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
       return;
     }
     found |= RayMask{1} << i;
-    Hit hit;
-    hit.distance = query.ray.tfar[i];
-    hit.u = query.hit.u[i];
-    hit.v = query.hit.v[i];
-    describe(rays[i], query.hit.geomID[i], query.hit.primID[i],
-             {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]}, hit);
-    hits.set(i, hit);
+    const HitSurface surface = surfaceAt(query.hit.geomID[i], query.hit.primID[i], hits.position[i],
+                                         {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]});
+    hits.position.set(i, surface.position);
+    hits.normal.set(i, surface.normal);
+    hits.material[i] = surface.material;
+    hits.emitter[i] = surface.emitter;
   });
   return found;
 }

@@ -58,8 +58,15 @@ class EmbreeScene {
   };
   struct Handles;
 
-  /// Fills in all of a hit but its distance and place along the shape.
-  void describe(const Ray& ray, unsigned geometry, unsigned primitive, const Vec3& meshNormal, Hit& hit) const;
+  /// What a hit is told of the shape.
+  struct HitSurface {
+    Vec3 position;
+    Vec3 normal;
+    std::uint32_t material;
+    std::uint32_t emitter;
+  };
+  /// @param place  about where on the shape
+  HitSurface surfaceAt(unsigned geometry, unsigned primitive, const Vec3& place, const Vec3& meshNormal) const;
 
   std::unique_ptr<Handles> m_handles;
   std::vector<ShapeRecord> m_rectangles;

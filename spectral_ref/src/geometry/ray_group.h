@@ -8,6 +8,16 @@
 
 #include "geometry/geometry.h"
 
+/// Before a loop over the rays of a group, whose arrays lie apart: compilers fill vector lanes only where they know,
+/// and do not ask of more than a few arrays.
+#if defined(__clang__)
+#define METAMER_RAYS_APART _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define METAMER_RAYS_APART _Pragma("GCC ivdep")
+#else
+#define METAMER_RAYS_APART
+#endif
+
 namespace metamer::spectral_ref {
 
 /// No emitter, no picture, no hit.

@@ -10,6 +10,7 @@ namespace metamer::spectral_ref {
 namespace {
 
 METAMER_VECTOR_LANES void look(const HitGroup& hits, LightsOfGroup& lights, RayGroup& towards) {
+  METAMER_RAYS_APART
   for (std::size_t i = 0; i < kRaysTogether; ++i) {
     const float px = hits.position.x[i];
     const float py = hits.position.y[i];
@@ -43,6 +44,7 @@ METAMER_VECTOR_LANES void look(const HitGroup& hits, LightsOfGroup& lights, RayG
 
 METAMER_VECTOR_LANES void scatter(const HitGroup& hits, const EachRay<float>& u, const EachRay<float>& v,
                                   RayGroup& next, EachRay<float>& pdf) {
+  METAMER_RAYS_APART
   for (std::size_t i = 0; i < kRaysTogether; ++i) {
     float a = 0;
     float b = 0;
@@ -77,8 +79,8 @@ void lookAtLights(const HitGroup& hits, LightsOfGroup& lights, RayGroup& towards
 }
 
 void scatterDiffusely(const HitGroup& hits, const EachRay<float>& u, const EachRay<float>& v, RayMask paths,
-                      RayGroup& next, EachRay<float>& pdf) {
-  if (paths == kAllRays) {
+                      RayMask others, RayGroup& next, EachRay<float>& pdf) {
+  if (others == 0) {
     scatter(hits, u, v, next, pdf);
     return;
   }

@@ -22,9 +22,10 @@ void lookAtLights(const HitGroup& hits, LightsOfGroup& lights, RayGroup& towards
 
 /// Draws directions with density cos / pi.
 /// @param u, v  0 ... 1
-/// @param next  the rays on of those in `paths`; the others stay as they are
-/// @param pdf   of the directions
+/// @param others  paths whose rays stay as they are
+/// @param next    the rays on of those in `paths`; of those in neither, anything
+/// @param pdf     of the directions
 void scatterDiffusely(const HitGroup& hits, const EachRay<float>& u, const EachRay<float>& v, RayMask paths,
-                      RayGroup& next, EachRay<float>& pdf);
+                      RayMask others, RayGroup& next, EachRay<float>& pdf);
 
 }  // namespace metamer::spectral_ref

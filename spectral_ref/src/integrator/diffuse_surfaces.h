@@ -57,7 +57,8 @@ class DiffuseSurfaces {
   }
 
   /// The paths' direct light, still to be tested, and their next directions. @return  those that go on
-  RayMask scatter(int edge, RayMask paths, Group& group, PathStarts<C>& starts) const {
+  /// @param others  paths whose rays stay as they are
+  RayMask scatter(int edge, RayMask paths, RayMask others, Group& group, PathStarts<C>& starts) const {
     if constexpr (kDispersive) {
       return 0;
     } else {
@@ -67,7 +68,7 @@ class DiffuseSurfaces {
         return 0;
       }
       addDirect(group, starts, surfaces);
-      return surfaces.goOn != 0 ? goOn(edge, group, starts, surfaces) : 0;
+      return surfaces.goOn != 0 ? goOn(edge, others, group, starts, surfaces) : 0;
     }
   }
 
@@ -148,12 +149,12 @@ class DiffuseSurfaces {
         Path<C, kDispersive>& path = group.paths[i];
         path.direct = path.throughput * surfaces.reflectances[i] *
                       m_prepared.lights.radianceOf(entries[i], m_prepared.spectra, path.lanes) * lights.weight[i];
-        group.lit |= path.direct.maxCoeff() > 0.0F ? RayMask{1} << i : 0U;
+        group.lit |= isAnyAbove(path.direct) ? RayMask{1} << i : 0U;
       }
     });
   }
 
-  RayMask goOn(int edge, Group& group, const PathStarts<C>& starts, const Surfaces& surfaces) const {
+  RayMask goOn(int edge, RayMask others, Group& group, const PathStarts<C>& starts, const Surfaces& surfaces) const {
     EachRay<float> u{};
     EachRay<float> v{};
     forEachRay(surfaces.goOn, [&](std::size_t i) {
@@ -162,7 +163,7 @@ class DiffuseSurfaces {
       v[i] = square.y();
     });
     EachRay<float> pdf{};
-    scatterDiffusely(group.hits, u, v, surfaces.goOn, group.rays, pdf);
+    scatterDiffusely(group.hits, u, v, surfaces.goOn, others, group.rays, pdf);
     RayMask alive = 0;
     forEachRay(surfaces.goOn, [&](std::size_t i) {
       Path<C, kDispersive>& path = group.paths[i];
@@ -171,7 +172,7 @@ class DiffuseSurfaces {
       path.last = {group.hits.position[i], group.hits.normal[i], false};
       path.lastIsDelta = false;
       path.resampled = nullptr;
-      const bool isAlive = pdf[i] > 0.0F && path.throughput.maxCoeff() > 0.0F &&
+      const bool isAlive = pdf[i] > 0.0F && isAnyAbove(path.throughput) &&
                            survives(m_prepared.scene.integrator, edge, starts.paths[i].random, path);
       alive |= isAlive ? RayMask{1} << i : 0U;
     });

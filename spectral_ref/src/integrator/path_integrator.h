@@ -63,7 +63,7 @@ class PathIntegrator {
       toVertex(edge - 1, found, starts);
       group.lit = 0;
       const RayMask plain = Resampling::kResamples && edge == 1 ? RayMask{0} : m_diffuse.which(group, found);
-      alive = m_diffuse.scatter(edge, plain, group, starts);
+      alive = m_diffuse.scatter(edge, plain, found & ~plain, group, starts);
       forEachRay(found & ~plain, [&](std::size_t i) {
         alive |= surface(edge, i, group, starts.paths[i], resampling[i]) ? RayMask{1} << i : 0U;
       });

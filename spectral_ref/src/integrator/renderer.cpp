@@ -17,7 +17,7 @@
 namespace metamer::spectral_ref {
 namespace {
 
-constexpr std::uint64_t kMostSamplesAPass = 4096;
+constexpr std::uint64_t kMostSamplesAPass = GatheredResponses::kMostPaths;
 /// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
 constexpr std::uint64_t kStateVersion = 0x6d65746100000008U;
 

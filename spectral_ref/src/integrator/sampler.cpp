@@ -28,13 +28,29 @@ METAMER_ALWAYS_INLINE SeveralAnywhere* severalOf(std::uint32_t* numbers) {
 }
 
 template <typename Bits>
-METAMER_ALWAYS_INLINE constexpr void reverse(Bits& x) {
+METAMER_ALWAYS_INLINE constexpr void reverseInBytes(Bits& x) {
   x = ((x >> 1U) & 0x55555555U) | ((x & 0x55555555U) << 1U);
   x = ((x >> 2U) & 0x33333333U) | ((x & 0x33333333U) << 2U);
   x = ((x >> 4U) & 0x0f0f0f0fU) | ((x & 0x0f0f0f0fU) << 4U);
+}
+template <typename Bits>
+METAMER_ALWAYS_INLINE constexpr void reverse(Bits& x) {
+  reverseInBytes(x);
   x = ((x >> 8U) & 0x00ff00ffU) | ((x & 0x00ff00ffU) << 8U);
   x = (x >> 16U) | (x << 16U);
 }
+#ifdef __GNUC__
+/// With the bytes put in place at once.
+template <>
+METAMER_ALWAYS_INLINE void reverse(Several& x) {
+  using Bytes = std::uint8_t __attribute__((vector_size(sizeof(Several))));
+  reverseInBytes(x);
+  const auto bytes = reinterpret_cast<Bytes>(x);  // NOLINT
+  x = reinterpret_cast<Several>(                  // NOLINT
+      __builtin_shufflevector(bytes, bytes, 3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12, 19, 18, 17, 16, 23,
+                              22, 21, 20, 27, 26, 25, 24, 31, 30, 29, 28));
+}
+#endif
 constexpr std::uint32_t reversed(std::uint32_t x) {
   reverse(x);
   return x;
@@ -136,11 +152,13 @@ constexpr unsigned kShuffledBits = 16;
 
 /// The sets are padded: an Owen-shuffled index breaks the correlation between them and keeps the stratification.
 /// Only within blocks of 2^16 points: a permutation still, and an index of few bits stays one.
-METAMER_ALWAYS_INLINE std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
+template <typename Bits>
+METAMER_ALWAYS_INLINE void shuffle(Bits& index, const Bits& seed) {
   constexpr std::uint32_t kBlock = (1U << kShuffledBits) - 1U;
-  std::uint32_t bits = reversed(index);
+  Bits bits = index;
+  reverse(bits);
   scramble(bits, seed);
-  return (bits & kBlock) | (index & ~kBlock);
+  index = (bits & kBlock) | (index & ~kBlock);
 }
 
 /// dimensionSeed of all dimensions, for several sets. Whole numbers: they are the same in lanes of any width.
@@ -156,14 +174,17 @@ METAMER_VECTOR_LANES void makeSeeds(Sampler::Seeds* const* sets, std::size_t cou
 
 /// All dimensions of several points: while one waits for a product, the next is begun.
 METAMER_VECTOR_LANES void makePoints(const Sampler::Order* orders, std::size_t count) {
-  std::array<std::uint32_t, Sampler::kMostTogether> indices{};
-  std::array<std::uint32_t, Sampler::kMostTogether> shuffles{};
+  static_assert(Sampler::kMostTogether == Sampler::kSetSize, "as many points as dimensions");
+  alignas(Several) std::array<std::uint32_t, Sampler::kMostTogether> indices{};
+  alignas(Several) std::array<std::uint32_t, Sampler::kMostTogether> shuffles{};
   for (std::size_t n = 0; n < count; ++n) {
     indices[n] = orders[n].index;
     shuffles[n] = orders[n].seeds->index;
   }
-  for (std::size_t n = 0; n < indices.size(); ++n) {
-    indices[n] = shuffled(indices[n], shuffles[n]);
+  for (std::size_t i = 0; i < kParts; ++i) {
+    Several several = severalOf(indices.data())[i];
+    shuffle<Several>(several, severalOf(shuffles.data())[i]);
+    severalOf(indices.data())[i] = several;
   }
   for (std::size_t n = 0; n < count; ++n) {
     const Sampler::Seeds& seeds = *orders[n].seeds;
@@ -188,7 +209,8 @@ METAMER_VECTOR_LANES void makePoints(const Sampler::Order* orders, std::size_t c
 Sampler::Candidates Sampler::candidates(std::uint32_t number, unsigned log2Count) const {
   const std::uint32_t seed = hash32(m_sequence, number);
   Candidates result{};
-  std::uint32_t index = shuffled(m_index, seed);
+  std::uint32_t index = m_index;
+  shuffle(index, seed);
   for (unsigned bit = log2Count; index != 0 && bit < kBits; ++bit, index >>= 1U) {
     const std::uint32_t mask = 0U - (index & 1U);
     for (std::size_t d = 0; d < result.m_bits.size(); ++d) {

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "film/gathered_responses.h"
 #include "integrator/edge_map.h"
 #include "integrator/path_integrator.h"
 #include "integrator/path_random.h"
@@ -76,11 +77,14 @@ class LaneTracer : public TileTracer {
 
   void trace(const Tile& tile, std::uint64_t begin, std::uint64_t end, bool isKept) override {
     const Replicates& replicates = m_context.film.format().replicates;
+    FilmSums& sums = m_context.film.sums();
     PathStarts<C> starts;
     Group group;
+    std::vector<GatheredResponses> gathered;
     const auto parts = [&](int x, int y) { return m_edges.paths(pixelOf(x, y)); };
     forGroups(tile, parts, [&](const PixelGroup& pixels) {
       std::array<std::optional<Sequences>, kReplicates> sequences;
+      gathered.assign(pixels.count, GatheredResponses(sums.unitsInOne()));
       for (std::uint64_t sample = begin; sample < end; ++sample) {
         const std::size_t replicate = replicates.of(sample);
         if (!sequences[replicate]) {
@@ -90,9 +94,13 @@ class LaneTracer : public TileTracer {
         follow(pixels, sample, starts, group);
         for (std::size_t i = 0; i < pixels.count && isKept; ++i) {
           const PixelGroup::Place& place = pixels.places[i];
-          m_context.sensor.template add<C>(m_context.film, place.pixel, replicate, starts.paths[i].wavelengths,
+          m_context.sensor.template add<C>(m_context.film, gathered[i], place.pixel, replicate,
+                                           starts.paths[i].wavelengths,
                                            group.paths[i].radiance / static_cast<float>(place.parts));
         }
+      }
+      for (std::size_t i = 0; i < pixels.count && isKept; ++i) {
+        gathered[i].addTo(sums, pixels.places[i].pixel);
       }
     });
   }

@@ -22,6 +22,12 @@ inline constexpr int kCells = spectral::kDomainSize;
 inline constexpr int kUltravioletCells = spectral::kDomainInExcitation;
 inline constexpr float kFirstEdgeNm = static_cast<float>(spectral::kDomainStartNm) - 0.5F;
 
+/// Whether any of some lanes, none below zero, is above it, or no number.
+template <typename Values>
+bool isAnyAbove(const Values& lanes) {
+  return !(lanes.sum() <= 0.0F);
+}
+
 /// The wavelengths a path carries; lane 0 is the hero.
 template <int C>
 struct WavelengthSet {

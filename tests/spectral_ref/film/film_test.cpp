@@ -65,12 +65,14 @@ TEST(FilmSensorTest, AFlatRadianceOfOneIsYOfOneAndOneInEveryBin) {
   const Scene scene = sceneOf("metamer_scene: 1\nfilm: {width: 1, height: 1, bins: {from: 380, to: 780, step: 25}}\n");
   FilmSensor sensor(scene.film);
   Film film(FilmFormat::of(scene.film, {}));
+  GatheredResponses gathered(film.sums().unitsInOne());
   // Every half nanometre once: the sums are the integrals.
   constexpr int kSteps = 2 * kCells;
   for (int i = 0; i < kSteps; ++i) {
     const auto set = sampleWavelengths<1>(UniformWavelengths(), (static_cast<float>(i) + 0.5F) / kSteps);
-    sensor.add<1>(film, 0, static_cast<std::size_t>(i) % kReplicates, set, Lanes<1>::Ones());
+    sensor.add<1>(film, gathered, 0, static_cast<std::size_t>(i) % kReplicates, set, Lanes<1>::Ones());
   }
+  gathered.addTo(film.sums(), 0);
   film.setRanges({{0, kSteps}});
   EXPECT_NEAR(film.luminance(0).mean, 1.0, 1e-6);
   EXPECT_NEAR(film.colour(0).y(), 1.0, 1e-6);
@@ -83,12 +85,14 @@ TEST(FilmSensorTest, WhatIsNoNumberIsLeftOutAndCounted) {
   const Scene scene = sceneOf("metamer_scene: 1\nfilm: {width: 1, height: 1}\n");
   FilmSensor sensor(scene.film);
   Film film(FilmFormat::of(scene.film, {}));
+  GatheredResponses gathered(film.sums().unitsInOne());
   const auto set = sampleWavelengths<4>(UniformWavelengths(), 0.4F);
   for (const float bad : {NAN, INFINITY, 1e30F}) {
     Lanes<4> radiance = Lanes<4>::Ones();
     radiance[2] = bad;
-    sensor.add<4>(film, 0, 0, set, radiance);
+    sensor.add<4>(film, gathered, 0, 0, set, radiance);
   }
+  gathered.addTo(film.sums(), 0);
   EXPECT_EQ(sensor.refused(), 3U);
   EXPECT_EQ(film.sums(), Film(film.format()).sums());
 }

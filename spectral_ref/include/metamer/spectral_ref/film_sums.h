@@ -36,6 +36,12 @@ class FilmSums {
       addMany(place, units);
     }
   }
+  /// Adds whole units, as many as terms came to that were rounded each.
+  void addUnits(std::size_t pixel, std::size_t channel, std::int64_t units) {
+    addUnits(pixel * m_channels + channel, units);
+  }
+  /// What a term is multiplied with: a power of two.
+  double unitsInOne() const { return m_unitsInOne; }
   /// Adds all sums of another film of the same size, channels and unit.
   void add(const FilmSums& other);
 
