@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMostSamplesAPass = GatheredResponses::kMostPaths;
 /// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
-constexpr std::uint64_t kStateVersion = 0x6d65746100000008U;
+constexpr std::uint64_t kStateVersion = 0x6d65746100000009U;
 
 std::vector<Tile> tilesOf(int width, int height) {
   std::vector<Tile> tiles;

@@ -80,10 +80,14 @@ void LightBranches::add(const LightTree& tree, std::uint32_t root, std::size_t i
   m_nodes[index] = node;
 }
 
-/// LightTree::importance of each child, in steps that all take, so that they fill vector lanes: lengths are cosines and
-/// sines times the distance, and there is but one division.
+/// About what each child may give, as LightTree::importance, in steps that all take, so that they fill vector lanes:
+/// lengths are cosines and sines times the distance, and there is but one division.
+///
+/// Only a tenth of a ball's radius keeps the distance from nothing: all of it would have a point amid many lights take
+/// those at the ball's rim for as near as the ones beside it.
 LightBranches::Each<float> LightBranches::importances(const Node& node, const LitPoint& point) {
   constexpr float kTiny = 1e-20F;
+  constexpr float kCore = 0.1F;  // of the radius, squares
   const float leastSine = point.isTwoSided ? std::numeric_limits<float>::infinity() : 0.0F;
   const Vec3 place = point.place;
   const Vec3 normal = point.normal;
@@ -97,7 +101,7 @@ LightBranches::Each<float> LightBranches::importances(const Node& node, const Li
     const float z = node.center[2][k] - near * place.z();
     const float squared = larger(x * x + y * y + z * z, kTiny);
     const float radiusSquared = larger(radius * radius, kTiny);
-    const float inverse = 1.0F / larger(squared, radiusSquared);
+    const float inverse = 1.0F / (squared + kCore * radiusSquared);
     const float beyond = squared - radiusSquared;  // not above zero: the point lies inside
     const float seenCosine = far * node.cosSpread[k] + near * std::sqrt(larger(beyond, 0.0F));
     // The receiver's cosine at best: of the angle from its normal, less the one that the node is seen under.
