@@ -156,6 +156,12 @@ class Packages(unittest.TestCase):
                               "opt/metamer/share/metamer/data/manifest.json"}, names)
         self.assertIn(f"Version: {VERSION}", self.succeed("dpkg-deb", "--info", deb))
 
+    def test_readme_names_the_libraries_that_the_archive_finds_on_no_bare_system(self):
+        [deb] = OUT.glob(f"metamer-tools_{VERSION}_*.deb")
+        needed = {word.split()[0] for word in self.succeed("dpkg-deb", "--field", deb, "Depends").split(",")}
+        [named] = re.findall(r"`apt-get install ([^`]+)`", (ROOT / "README.md").read_text(encoding="utf-8"))
+        self.assertEqual(needed - {"libc6", "libgcc-s1", "libstdc++6", "zlib1g"}, set(named.split()))
+
     def test_the_playground_lies_in_the_tree_too(self):
         for page in OUT.glob(f"metamer-{VERSION}-playground.html"):
             self.assertEqual((self.unpacked() / "share/metamer/playground/metamer.html").read_bytes(), page.read_bytes())
