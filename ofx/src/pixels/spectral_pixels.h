@@ -16,8 +16,8 @@
 
 namespace metamer::ofx {
 
-/// Bands of a draft's transform, and the tolerance of its map, and the levels that one lacks: a frame while a slider is
-/// drawn, on a photograph within a hundredth of a pixel's largest channel (99th percentile).
+/// A draft's bands, the tolerance of its map, and the levels of patches that it does without: a frame while a slider
+/// is drawn, on a photograph within a hundredth of a pixel's largest channel (99th percentile).
 inline constexpr int kDraftBandCount = 41;
 inline constexpr double kDraftTolerance = 0.35;
 inline constexpr int kDraftFewerLevels = 3;
