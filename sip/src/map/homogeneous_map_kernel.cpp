@@ -308,7 +308,11 @@ void applyMap(const Map& map, const float* source, float* destination, std::size
     for (; pixel + lanes <= end; pixel += lanes) {
       prefetch(source, pixel + kPrefetchedPixels, pixelCount);
       block.pixel[count] = static_cast<std::uint16_t>(pixel - first);
-      count += begin(map, source + 4 * pixel, destination + 4 * pixel, count * lanes, block) ? 1 : 0;
+      if (begin(map, source + 4 * pixel, destination + 4 * pixel, count * lanes, block)) {
+        ++count;
+      } else {  // stored: no finish() asks for what follows
+        prefetch(destination, pixel + kPrefetchedPixels, pixelCount);
+      }
     }
     for (std::size_t k = 0; k < count; ++k) {
       prefetch(destination, first + block.pixel[k] + kPrefetchedPixels, pixelCount);
