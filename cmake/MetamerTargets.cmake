@@ -15,7 +15,9 @@ else()
     # A transform must not depend on the machine or compiler that ran it: no contraction into fused operations.
     -ffp-contract=off
     # GCC 12 reports overlapping copies inside std::string that cannot happen (GCC bug 105651).
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
+    # Says at -O1 that a loop was not vectorized as asked; such builds look for faults, not for speed.
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-pass-failed>)
 endif()
 if(METAMER_SANITIZERS)
   target_compile_options(metamer_build_flags INTERFACE -fsanitize=${METAMER_SANITIZERS} -fno-omit-frame-pointer
