@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "metamer/spectral/chromatic_adaptation.h"
+#include "metamer/spectral/quantile.h"
 #include "metamer/spectral/rgb_space.h"
 #include "metamer/spectral/srgb_curve.h"
 #include "operators/ap1.h"
@@ -42,15 +43,6 @@ Eigen::Matrix3d between(const spectral::RgbSpace& from, const spectral::RgbSpace
 /// 8-bit code of a display, without rounding.
 double codeOf(double linear) {
   return 255.0 * spectral::srgbFromLinear(std::clamp(linear, 0.0, 1.0));
-}
-
-double quantile(std::vector<double> values, double part) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(part * static_cast<double>(values.size()))) - 1;
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
 }
 
 }  // namespace
@@ -114,9 +106,9 @@ PixelProtocol::Report PixelProtocol::measure(const std::function<void(std::span<
           .push_back(isFinite ? (codes(result) - codes(m_expected[k])).cwiseAbs().maxCoeff() : kInfinity);
     }
   }
-  report.p999 = quantile(distances, 0.999);
-  report.photographCodes = quantile(photograph, 0.99);
-  report.noisyCodes = quantile(noisy, 0.99);
+  report.p999 = spectral::quantile(distances, 0.999);
+  report.photographCodes = spectral::quantile(photograph, 0.99);
+  report.noisyCodes = spectral::quantile(noisy, 0.99);
   return report;
 }
 

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "metamer/sip/probe_limits.h"
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/colorimetry.h"
+#include "metamer/spectral/quantile.h"
 
 namespace metamer::sip {
 namespace {
@@ -60,9 +62,7 @@ Comparison summarise(std::vector<ComparedColour> colours) {
   }
   result.max = result.colours[result.worst].deltaE;
   result.mean /= static_cast<double>(errors.size());
-  const auto rank = static_cast<std::ptrdiff_t>(std::ceil(0.99 * static_cast<double>(errors.size()))) - 1;
-  std::nth_element(errors.begin(), errors.begin() + rank, errors.end());
-  result.p99 = errors[static_cast<std::size_t>(rank)];
+  result.p99 = spectral::quantile(std::move(errors), 0.99);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "metamer/sip/band_weights.h"
 #include "metamer/sip/even_spread.h"
@@ -14,6 +15,7 @@
 #include "metamer/sip/spectral_locus.h"
 #include "metamer/spectral/argument_checks.h"
 #include "metamer/spectral/colorimetry.h"
+#include "metamer/spectral/quantile.h"
 
 namespace metamer::sip {
 
@@ -217,9 +219,7 @@ ErrorProtocol::Report ErrorProtocol::compare(const std::vector<Eigen::Vector3d>&
   }
   report.count = errors.size();
   report.mean /= static_cast<double>(errors.size());
-  const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(errors.size()))) - 1;
-  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(rank), errors.end());
-  report.p99 = errors[rank];
+  report.p99 = spectral::quantile(std::move(errors), 0.99);
   return report;
 }
 

@@ -54,7 +54,7 @@ std::vector<float> FineBlock::emptyTable() {
   return std::vector<float>(placeOf(0, HomogeneousMap::kFineSide + 1));
 }
 
-void FineBlock::appendTo(std::vector<float>& table) const {
+void FineBlock::putInto(std::vector<float>& table) const {
   const float* from = m_nodes.data();
   for (int row = m_firstRow; row <= m_firstRow + m_side; ++row) {
     for (int column = m_firstColumn; column <= m_firstColumn + m_side; ++column, from += 3) {

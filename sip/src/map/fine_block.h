@@ -55,8 +55,8 @@ class FineBlock {
   void exclude(int column, int row);
 
   /// Puts the block into a table of all nodes; where blocks meet, the latter's values stand if it has any.
-  void appendTo(std::vector<float>& table) const;
-  /// What appendTo() takes at first.
+  void putInto(std::vector<float>& table) const;
+  /// What putInto() takes at first.
   static std::vector<float> emptyTable();
 
  private:

@@ -92,7 +92,7 @@ class Part {
     }
     map.patches.insert(map.patches.end(), m_patches.begin(), m_patches.end());
     if (m_fine) {
-      m_fine->appendTo(map.fine);
+      m_fine->putInto(map.fine);
     }
     map.statistics.solves += m_statistics.solves;
     map.statistics.patches += m_statistics.patches;
