@@ -11,6 +11,7 @@
 #include "metamer/spectral/missing_file_error.h"
 #include "metamer/spectral/observer_of_curves.h"
 #include "metamer/spectral/pending_file.h"
+#include "metamer/spectral/quantile.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 #include "metamer/spectral/yaml_value.h"
@@ -40,6 +41,17 @@ TEST(SpectralRanges, ChecksThemselves) {
   EXPECT_REFUSED("x '2': must be as many as y, 3", (requireAsMany("x", 2, "y", 3), 0));
   EXPECT_TAKEN((requirePixels(8), 0));
   EXPECT_REFUSED("pixels '9'", (requirePixels(9), 0));
+}
+
+TEST(SpectralRanges, Quantiles) {
+  EXPECT_EQ(quantile({}, 0.5), 0);
+  EXPECT_EQ(quantile({3, 1, 2, 4}, 1), 4);
+  EXPECT_EQ(quantile({3, 1, 2, 4}, 0.75), 3);
+  EXPECT_EQ(quantile({3, 1, 2, 4}, 0.7501), 4);
+  EXPECT_EQ(quantile({3, 1, 2, 4}, 1e-300), 1);
+  EXPECT_REFUSED("part '0'", quantile({1}, 0));
+  EXPECT_REFUSED("part '1.5'", quantile({1}, 1.5));
+  EXPECT_REFUSED("part 'nan'", quantile({1}, kNotANumber));
 }
 
 TEST(SpectralRanges, Spectra) {

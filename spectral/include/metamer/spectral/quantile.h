@@ -6,12 +6,19 @@
 #include <cstddef>
 #include <vector>
 
+#include "metamer/spectral/argument_checks.h"
+
 namespace metamer::spectral {
 
-/// The least of the values that a part of them does not exceed: p99 for 0.99 (the nearest-rank definition).
-/// @param part  above 0, up to 1
+/// The smallest value that at least this part of all values does not exceed (the nearest-rank definition): p99 for
+/// 0.99.
+/// @param values  none NaN
+/// @param part    above 0, up to 1
 /// @return 0 where there are no values
+/// @throws InputError (part)
 inline double quantile(std::vector<double> values, double part) {
+  requireAbove("part", part, 0.0);
+  requireWithin("part", part, 0.0, 1.0);
   if (values.empty()) {
     return 0.0;
   }
