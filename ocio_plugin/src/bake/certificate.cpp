@@ -281,9 +281,9 @@ std::vector<std::string> Certificate::lines() const {
                 "CIEDE2000 against the spectral engine: mean %.3f, p99 %.3f, max %.3f, stops %+d to %+d", error.mean,
                 error.p99, error.max, probes.lowestStop, probes.highestStop);
   std::array<char, 48> scene{};
-  std::snprintf(scene.data(), scene.size(),
-                kindBelowPairs(recipe.scene) == sip::ReferenceScene::Kind::Skin ? " %.4g, fade %.4g" : "",
-                recipe.scene.strength, recipe.scene.fade);
+  if (kindBelowPairs(recipe.scene) == sip::ReferenceScene::Kind::Skin) {
+    std::snprintf(scene.data(), scene.size(), " %.4g, fade %.4g", recipe.scene.strength, recipe.scene.fade);
+  }
   std::vector<std::string> result = {
       "metamer " + toolVersion() + ": " + side(recipe.input) + " -> " + side(recipe.output) + ", scene " +
           (recipe.scene.kind == sip::ReferenceScene::Kind::Pairs

@@ -80,7 +80,8 @@ class Fit {
 };
 
 void Fit::takeSamples(const ChainProbe& probe) {
-  const auto& [hues, saturations] = m_lattice.ticks;
+  const std::vector<double>& hues = m_lattice.ticks[0];
+  const std::vector<double>& saturations = m_lattice.ticks[1];
   std::vector<std::vector<LatticeSample>> strips(hues.size() - 1);
   parallelFor(static_cast<int>(strips.size()), [&](int i) {
     std::vector<Eigen::Vector2d> points;

@@ -92,7 +92,7 @@ TEST_F(ReplacedLooksTest, FilesThatOtherLooksReadStay) {
            {recipeOf("dusk", "HP1"), false, "dusk.ctf"},
            {recipeOf("dusk_0", "HP1"), false, "dusk_0.json"},
        }) {
-    const std::string error = errorOf([&] { write({recipe}, replaces); });
+    const std::string error = errorOf([&, &recipe = recipe, replaces = replaces] { write({recipe}, replaces); });
     EXPECT_NE(error.find(file), std::string::npos) << error;
     EXPECT_NE(error.find("of the base; rename the recipe"), std::string::npos) << error;
   }
