@@ -81,6 +81,7 @@ class Cases(unittest.TestCase):
             (whole.replace(b"face 1", b"face 2") + b"0\n", "face 1 '0': has no vertices"),
             (binary + struct.pack("<B", 0), "has no vertices"),
             (whole.replace(b"uchar", b"int").replace(b"3 0 1 2", b"3000" + 1000 * b" 0 1 2"), "face 0 '3000'"),
+            (whole.replace(b"3 0 1 2", b"2" + 96 * b"3" + b" 0 1 2"), "export triangles"),  # more than an integer holds
         ):
             (self.folder / "m.ply").write_bytes(data)
             self.refused(scene, "m.ply", says)

@@ -174,7 +174,7 @@ class ColumnsReader {
     }
   }
 
-  /// Names the columns and leaves out those without a number, which hold remarks.
+  /// Names the columns and leaves out those without a number, which hold remarks. Nothing where all do.
   std::optional<TableCurves> takeNames(const ColumnHeading& heading) {
     SampledRows& rows = m_curves.rows;
     std::vector<std::size_t> kept;
@@ -184,6 +184,9 @@ class ColumnsReader {
           std::any_of(column.begin(), column.end(), [](double v) { return !std::isnan(v); })) {
         kept.push_back(c);
       }
+    }
+    if (kept.empty()) {
+      return std::nullopt;
     }
     SampledRows taken;
     for (std::size_t k = 0; k < kept.size(); ++k) {

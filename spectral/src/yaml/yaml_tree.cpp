@@ -43,6 +43,9 @@ class TreeBuilder : public YAML::EventHandler {
     if (std::any_of(value.begin(), value.end(), isControl)) {
       throw error(mark, "value", value, "control characters are not allowed");
     }
+    if (!isUtf8(value)) {  // yaml-cpp makes half a character of these two
+      throw error(mark, "value", "", "the escapes \\N and \\_ cannot be read; write the character itself");
+    }
     if (m_open.empty() || m_open.back()->kind != YamlNode::Kind::Map || m_hasKey) {
       YamlNode& node = add(mark, tag, anchor, YamlNode::Kind::Scalar);
       node.text = value;

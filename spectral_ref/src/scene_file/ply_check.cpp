@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_file/ply_check.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -187,7 +188,8 @@ class PlyChecker {
     if (property.isIndices && count == 0) {
       refuse(m_place, "0", "has no vertices; mend the mesh");  // Assimp's triangulation ends the program
     }
-    if (property.isIndices && !m_polygons.allows(static_cast<std::uint64_t>(count))) {
+    if (property.isIndices &&
+        !m_polygons.allows(static_cast<std::uint64_t>(std::min(count, static_cast<double>(kMostItems))))) {
       refuse(m_place, spectral::numberText(count), PolygonBudget::kRemedy);
     }
     for (double i = 0; i < count; ++i) {

@@ -208,6 +208,8 @@ TEST(RecipeTest, RefusesMalformedRecipes) {
        "r.yaml:2: input.illuminant: is empty; give a name or leave the key out"},
       {"list for text", with("name: [a]\n"), "r.yaml:4: name: must be a name, not a list"},
       {"two lines of text", with("name: \"a\\nb\"\n"), "r.yaml:4: value 'a b': control characters are not allowed"},
+      {"half a character", with("name: \"a\\Nb\"\n"),
+       "r.yaml:4: value: the escapes \\N and \\_ cannot be read; write the character itself"},
       {"a bell", with("name: \"a\\ab\"\n"), "r.yaml:4: value 'a b': control characters are not allowed"},
       {"text for a map", "metamer: 1\ninput: D65\noutput: {illuminant: A}\n",
        "r.yaml:2: input 'D65': must be a map of illuminant, filters, observer"},

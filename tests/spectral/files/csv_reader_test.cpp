@@ -112,6 +112,7 @@ TEST(CsvReaderTest, RefusesMalformedFiles) {
   const std::vector<Case> cases{
       {"empty", "", none},
       {"white space", " \n\t\r\n", none},
+      {"remarks alone", "  396 0\x8d+.3 -\n85\t0.2e\t0e\t", none},
       {"comments", "# a\n#b", none},
       {"header only", "wavelength,power\n", none},
       {"byte order mark only", "\xEF\xBB\xBF", none},
