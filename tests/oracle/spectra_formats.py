@@ -163,7 +163,27 @@ def quoted(lamp):
     return "lamp.csv", lines(['"Wavelength","Power, W","Remark"', *(f'"{nm}","{number(v)}","ok"' for nm, v in lamp)])
 
 
+def padded_commas(lamp):
+    return "lamp.dat", lines([f"{nm:.2f},\t{value:.7E}" for nm, value in lamp])
+
+
+def avantes(lamp):
+    """What was measured stands beside what was made of it; the dark signal is no lamp."""
+    rows = [f" {nm:.2f};  {value * 9e3:.3f};  {-14.5 if nm % 2 else 6.333:.3f};  {number(value)}" for nm, value in lamp]
+    return "lamp.TXT:Irradiance", lines(
+        ["", "Integration time [ms]:  84.900", "Averaging Nr. [scans]: 10", "Smoothing Nr. [pixels]: 1",
+         "Data measured with spectrometer [name]: 1501154U1", "Wave   ;Sample   ;Dark     ;Irradiance",
+         "[nm]   ;[counts] ;[counts] ;[uWatt/cm2/nm]", "", *rows])
+
+
+def spectrasuite_japanese(lamp):
+    return "lamp.txt", lines(
+        ["SpectraSuiteﾃﾞｰﾀﾌｧｲﾙ", "++++++++++++++++++++++++++++++++++++", "日時: Mon Jun 11 14:59:44 JST 2018",
+         "ﾀﾞｰｸｽﾍﾟｸﾄﾙ: はい", "分光器: USB4F06998", "Integration Time (usec): 60000 (USB4F06998)",
+         "ﾊﾟﾙｽ信号/光源有効: はい (USB4F06998)", ">>>>>Begin Processed Spectral Data<<<<<", *table(lamp, "\t")], "cp932")
+
+
 FORMATS = [plain_csv, spreadsheet_german, latin1_tabs, utf16_little, utf16_big, sekonic_c7000, sekonic_c800_comma, uprtek,
            ocean_spectrasuite, oceanview, asensetek, konica_minolta_cl500a, konica_minolta_cs2000, argyll_sp, argyll_ti3,
            i1profiler, curves_in_rows, units_and_names, summary_tail, gnuplot, matlab, assembler_comments, angstrom_falling,
-           quoted]
+           quoted, padded_commas, avantes, spectrasuite_japanese]

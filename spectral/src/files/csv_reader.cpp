@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "files/column_choice.h"
 #include "metamer/spectral/spectral_files.h"
 #include "tables/layouts.h"
 #include "tables/text_encoding.h"
@@ -20,6 +21,23 @@ std::vector<Spectrum> readCsvOfScale(std::string_view text, const std::string& w
     }
   }
   return spectra;
+}
+
+Spectrum readCsvColumn(std::string_view text, const std::string& where, SpectralQuantity quantity,
+                       const std::string& column) {
+  const std::string utf8 = decodedTable(text, where);
+  std::vector<TableCurves> tables = readTable(tableText(utf8, where));
+  std::vector<std::string> names;
+  for (const TableCurves& curves : tables) {
+    names.insert(names.end(), curves.rows.names.begin(), curves.rows.names.end());
+  }
+  std::size_t index = columnIndex(column, names, where);
+  auto table = tables.begin();
+  while (index >= table->rows.names.size()) {
+    index -= table->rows.names.size();
+    ++table;
+  }
+  return spectraFromRows(columnsOf(std::move(table->rows), {index}), quantity, table->scale).front();
 }
 
 std::vector<Spectrum> readCsv(const std::string& text, const std::string& where, SpectralQuantity quantity) {

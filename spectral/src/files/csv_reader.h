@@ -13,4 +13,9 @@ namespace metamer::spectral {
 std::vector<Spectrum> readCsvOfScale(std::string_view text, const std::string& where, SpectralQuantity quantity,
                                      StatedScale scale);
 
+/// One curve of a table: what stands in the others is not judged.
+/// @param column  as columnIndex() takes it
+Spectrum readCsvColumn(std::string_view text, const std::string& where, SpectralQuantity quantity,
+                       const std::string& column);
+
 }  // namespace metamer::spectral

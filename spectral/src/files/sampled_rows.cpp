@@ -99,6 +99,23 @@ double checkedDivisor(const SampledRows& rows, const std::vector<UsableCurve>& c
 
 }  // namespace
 
+SampledRows columnsOf(SampledRows rows, const std::vector<std::size_t>& kept) {
+  SampledRows taken;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    taken.names.push_back(std::move(rows.names[kept[k]]));
+    taken.columns.push_back(std::move(rows.columns[kept[k]]));
+    for (std::size_t row = 0; row < rows.wavelengthsNm.size() && !rows.flaws.empty(); ++row) {
+      if (const auto flaw = rows.flaws.find({row, kept[k]}); flaw != rows.flaws.end()) {
+        taken.flaws.emplace(std::pair(row, k), flaw->second);
+      }
+    }
+  }
+  taken.where = std::move(rows.where);
+  taken.wavelengthsNm = std::move(rows.wavelengthsNm);
+  taken.rowWhere = std::move(rows.rowWhere);
+  return taken;
+}
+
 double requiredNumber(std::string_view token, const std::string& where, const std::string& field) {
   const std::optional<double> number = parseNumber(token);
   if (number) {

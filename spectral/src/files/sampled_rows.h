@@ -29,6 +29,9 @@ struct SampledRows {
   std::map<std::pair<std::size_t, std::size_t>, std::string> flaws = {};
 };
 
+/// Some columns of a table, in the order given.
+SampledRows columnsOf(SampledRows rows, const std::vector<std::size_t>& kept);
+
 /// Reads a whole token as a finite number.
 /// @throws InputError for anything else, with a remedy for decimal commas, NaN and empty cells
 double requiredNumber(std::string_view token, const std::string& where, const std::string& field);

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <fstream>
-#include <optional>
 #include <string_view>
 #include <system_error>
 
+#include "files/column_choice.h"
+#include "files/csv_reader.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/missing_file_error.h"
 #include "metamer/spectral/path_text.h"
@@ -18,8 +18,8 @@
 namespace metamer::spectral {
 namespace {
 
-constexpr std::array<std::string_view, 9> kTables{".csv", ".txt", ".tsv",  ".asc",  ".xls",
-                                                  ".sp",  ".ti3", ".ccss", ".cgats"};
+constexpr std::array<std::string_view, 12> kTables{".csv", ".txt", ".tsv", ".tab", ".dat",  ".prn",
+                                                   ".asc", ".xls", ".sp",  ".ti3", ".ccss", ".cgats"};
 
 std::string extensionOf(const std::string& file) {
   return lowerCase(utf8(pathOf(file).extension()));
@@ -35,40 +35,28 @@ bool isKnown(const std::string& extension) {
   return isTable(extension) || extension == ".spdx" || extension == ".json" || extension == kPicture;
 }
 
+std::vector<std::string> namesOf(const std::vector<Spectrum>& spectra) {
+  std::vector<std::string> names;
+  for (const Spectrum& spectrum : spectra) {
+    names.push_back(spectrum.name());
+  }
+  return names;
+}
+
 std::vector<Spectrum> readWholeFile(const std::string& file, SpectralQuantity quantity) {
   const std::string extension = extensionOf(file);
-  if (!isKnown(extension)) {
-    throw InputError(file, "extension", extension,
-                     "must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), .spdx, .json or .exr");
-  }
   const std::string text = readTextFile(pathOf(file));
   return extension == ".spdx"   ? readSpdx(text, file, quantity)
          : extension == ".json" ? readRawtoacesJson(text, file, quantity)
                                 : readCsv(text, file, quantity);
 }
 
-/// A curve by its name, without regard to case, else by its number.
-Spectrum columnNamed(const std::string& column, const std::vector<Spectrum>& spectra, const std::string& file) {
-  const std::string wanted = lowerCase(trimmed(column));
-  const Spectrum* found = nullptr;
-  for (const Spectrum& spectrum : spectra) {
-    if (lowerCase(spectrum.name()) == wanted) {
-      if (found != nullptr) {
-        throw InputError(file, "column", column, "is the name of several; give the number of one, from 1");
-      }
-      found = &spectrum;
-    }
+Spectrum readColumn(const std::string& file, SpectralQuantity quantity, const std::string& column) {
+  if (isTable(extensionOf(file))) {
+    return readCsvColumn(readTextFile(pathOf(file)), file, quantity, column);
   }
-  const std::optional<double> number = parseNumber(wanted);
-  if (found == nullptr && number && *number >= 1 && *number <= static_cast<double>(spectra.size()) &&
-      *number == std::floor(*number)) {
-    found = &spectra[static_cast<std::size_t>(*number) - 1];
-  }
-  if (found == nullptr) {
-    throw InputError(file, "column", column,
-                     "is not there; give a name or a number from 1 of: " + columnsText(spectra));
-  }
-  return *found;
+  const std::vector<Spectrum> spectra = readWholeFile(file, quantity);
+  return spectra[columnIndex(column, namesOf(spectra), file)];
 }
 
 }  // namespace
@@ -119,16 +107,7 @@ bool looksLikeSpectralFile(const std::string& nameOrFile) {
 }
 
 std::string columnsText(const std::vector<Spectrum>& spectra) {
-  constexpr std::size_t kMost = 12;
-  std::vector<std::string> names;
-  for (const Spectrum& spectrum : spectra) {
-    if (names.size() == kMost) {
-      names.push_back("... " + std::to_string(spectra.size()) + " in all");
-      break;
-    }
-    names.push_back(shortened(spectrum.name(), 24));
-  }
-  return joined(names);
+  return listedColumns(namesOf(spectra));
 }
 
 std::vector<Spectrum> readSpectralFile(const std::filesystem::path& fileOrColumn, SpectralQuantity quantity,
@@ -137,8 +116,11 @@ std::vector<Spectrum> readSpectralFile(const std::filesystem::path& fileOrColumn
   if (extensionOf(where) == kPicture) {
     return readSpectralPicture(where, column, quantity, pictures);
   }
-  std::vector<Spectrum> spectra = readWholeFile(where, quantity);
-  return column.empty() ? spectra : std::vector<Spectrum>{columnNamed(column, spectra, where)};
+  if (!isKnown(extensionOf(where))) {
+    throw InputError(where, "extension", extensionOf(where),
+                     "must be .csv, .txt, .tsv, .sp, .ti3 (or another table's, see the manual), .spdx, .json or .exr");
+  }
+  return column.empty() ? readWholeFile(where, quantity) : std::vector<Spectrum>{readColumn(where, quantity, column)};
 }
 
 }  // namespace metamer::spectral

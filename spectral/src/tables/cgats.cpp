@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/text.h"
@@ -29,12 +30,35 @@ void addTokens(const TableLine& line, std::vector<Token>& tokens) {
   }
 }
 
+/// Evenly spaced bands, as Argyll's header states them; 0 where it does not.
+struct StatedBands {
+  double count = 0;
+  double startNm = 0;
+  double endNm = 0;
+};
+
 /// One table of the file: its fields and the words of its sets.
 struct CgatsTable {
   std::vector<Token> fields;
   std::vector<Token> data;
   StatedScale scale = StatedScale::NotStated;
+  StatedBands bands;
 };
+
+/// What follows a keyword as a number; nothing where the line begins with another word.
+std::optional<double> valueOf(std::string_view keyword, std::string_view line) {
+  const bool isIt = line.size() > keyword.size() && line.substr(0, keyword.size()) == keyword;
+  return isIt ? parseNumber(unquoted(trimmed(line.substr(keyword.size())))) : std::nullopt;
+}
+
+void readKeyword(std::string_view line, CgatsTable& table) {
+  if (const auto norm = valueOf("SPECTRAL_NORM", line)) {
+    table.scale = *norm == 100 ? StatedScale::Percent : *norm == 1 ? StatedScale::Unity : StatedScale::NotStated;
+  }
+  table.bands.count = valueOf("SPECTRAL_BANDS", line).value_or(table.bands.count);
+  table.bands.startNm = valueOf("SPECTRAL_START_NM", line).value_or(table.bands.startNm);
+  table.bands.endNm = valueOf("SPECTRAL_END_NM", line).value_or(table.bands.endNm);
+}
 
 std::vector<CgatsTable> tablesOf(const TableText& text) {
   std::vector<CgatsTable> tables(1);
@@ -54,15 +78,11 @@ std::vector<CgatsTable> tablesOf(const TableText& text) {
     } else if (word == "END_DATA") {
       reading = nullptr;
       // The fields of a table hold for those behind it, until others are given.
-      tables.push_back({tables.back().fields, {}, StatedScale::NotStated});
+      tables.push_back({tables.back().fields, {}, StatedScale::NotStated, {}});
     } else if (reading != nullptr) {
       addTokens(line, *reading);
-    } else if (word.substr(0, 13) == "SPECTRAL_NORM") {
-      const std::optional<double> norm = parseNumber(unquoted(trimmed(word.substr(13))));
-      tables.back().scale = !norm || *norm == 0 ? StatedScale::NotStated
-                            : *norm == 100      ? StatedScale::Percent
-                            : *norm == 1        ? StatedScale::Unity
-                                                : StatedScale::NotStated;
+    } else {
+      readKeyword(word, tables.back());
     }
   }
   return tables;
@@ -80,6 +100,24 @@ std::optional<std::size_t> nameField(const std::vector<Token>& fields) {
   return std::nullopt;
 }
 
+/// Fields are named in whole nanometres: bands 3.33 nm apart, as an i1Pro measures at high resolution, are where the
+/// header says, if that rounds to the names.
+void placeBands(const StatedBands& stated, std::vector<double>& wavelengthsNm) {
+  const auto count = static_cast<double>(wavelengthsNm.size());
+  if (stated.count != count || count < 2) {
+    return;
+  }
+  std::vector<double> even;
+  for (double band = 0; band < count; ++band) {
+    even.push_back(stated.startNm + band * (stated.endNm - stated.startNm) / (count - 1));
+  }
+  constexpr double kRounding = 0.5 + 1e-6;
+  if (std::equal(even.begin(), even.end(), wavelengthsNm.begin(),
+                 [](double exact, double name) { return std::abs(exact - name) <= kRounding; })) {
+    wavelengthsNm = std::move(even);
+  }
+}
+
 std::optional<TableCurves> curvesOf(const CgatsTable& table, const TableText& text) {
   std::vector<std::size_t> bands;
   TableCurves curves;
@@ -93,6 +131,7 @@ std::optional<TableCurves> curvesOf(const CgatsTable& table, const TableText& te
   if (bands.empty() || table.data.empty()) {
     return std::nullopt;
   }
+  placeBands(table.bands, curves.rows.wavelengthsNm);
   const std::size_t width = table.fields.size();
   if (table.data.size() % width != 0) {
     throw InputError(text.where + ":" + std::to_string(table.data.back().lineNumber), "BEGIN_DATA",

@@ -2,6 +2,7 @@
 #include "tables/column_heading.h"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include "metamer/spectral/input_error.h"
@@ -47,9 +48,21 @@ bool namesApart(const std::vector<std::string>& cells, std::size_t columns) {
   return !names.empty() && (columns == 2 || names.size() > 1);
 }
 
+/// Whether each cell over the values states percent, itself or, where it is empty, as the one before it does: a heading
+/// over several columns stands over the first.
+std::vector<bool> percentOver(const std::vector<std::string>& cells, std::size_t columns) {
+  std::vector<bool> percent;
+  for (std::size_t c = 1; c < columns; ++c) {
+    percent.push_back(cells[c].empty() ? !percent.empty() && percent.back() : statesPercent(cells[c]));
+  }
+  return percent;
+}
+
 class HeadingReader {
  public:
-  HeadingReader(const TableText& text, std::size_t columns) : m_text(text), m_columns(columns) {}
+  HeadingReader(const TableText& text, std::size_t columns) : m_text(text), m_columns(columns) {
+    m_heading.percent.assign(columns - 1, false);
+  }
 
   /// Whether the row belongs to the heading. Rows come from the table upwards.
   bool take(const std::vector<std::string>& cells) {
@@ -61,7 +74,9 @@ class HeadingReader {
       return false;
     }
     m_heading.nmPerUnit = m_heading.nmPerUnit > 0 ? m_heading.nmPerUnit : nmPerUnitIn(cells.front());
-    m_heading.percent = m_heading.percent || std::any_of(cells.begin() + 1, cells.end(), statesPercent);
+    const std::vector<bool> percent = percentOver(cells, m_columns);
+    std::transform(percent.begin(), percent.end(), m_heading.percent.begin(), m_heading.percent.begin(),
+                   std::logical_or<>());
     const bool areUnits = std::all_of(cells.begin(), cells.end(), isUnit);
     if (!areUnits && (m_heading.names.empty() || (!m_apart && namesApart(cells, m_columns)))) {
       m_heading.names.assign(cells.begin() + 1, cells.begin() + static_cast<std::ptrdiff_t>(m_columns));
@@ -112,7 +127,7 @@ ColumnHeading columnHeading(const TableText& text, std::size_t firstRow, std::si
       // A header whose words are apart as its columns are: its units count, its names cannot be told.
       if (rows == 0 && text.separator == kWhiteSpaceSeparator && namesWavelength(line.text)) {
         reader.heading().nmPerUnit = nmPerUnitIn(line.text);
-        reader.heading().percent = statesPercent(line.text);
+        reader.heading().percent.assign(columns - 1, statesPercent(line.text));
       }
       break;
     }

@@ -13,7 +13,7 @@ namespace metamer::spectral {
 struct ColumnHeading {
   std::vector<std::string> names;  ///< one a column of values; empty where nothing names it
   double nmPerUnit = 0;            ///< 0 where no unit is stated
-  bool percent = false;
+  std::vector<bool> percent;       ///< one a column of values
 };
 
 /// Reads the header rows right above a table: names, units, or both; else a comment there that has as many cells.

@@ -102,7 +102,8 @@ class ColumnsReader {
  public:
   ColumnsReader(const TableText& text, const Block& block) : m_text(text), m_block(block) {}
 
-  std::optional<TableCurves> read() {
+  /// Columns of one scale after the other; none where all are remarks.
+  std::vector<TableCurves> read() {
     countColumns();
     const ColumnHeading heading =
         columnHeading(m_text, m_block.rows.front().line, m_columns, m_block.rows.front().wavelength.isLabelled);
@@ -113,12 +114,12 @@ class ColumnsReader {
     for (const Row& row : m_block.rows) {
       readRow(row, heading);
     }
-    m_curves.scale = heading.percent ? StatedScale::Percent : StatedScale::NotStated;
     m_curves.rows.where = m_text.where;
     m_curves.rows.rowWhere = [where = m_text.where, numbers = std::move(m_lineNumbers)](std::size_t row) {
       return where + ":" + std::to_string(numbers[row]);
     };
-    return takeNames(heading);
+    giveNames(heading);
+    return byScale(keptColumns(), heading);
   }
 
  private:
@@ -174,40 +175,47 @@ class ColumnsReader {
     }
   }
 
-  /// Names the columns and leaves out those without a number, which hold remarks. Nothing where all do.
-  std::optional<TableCurves> takeNames(const ColumnHeading& heading) {
-    SampledRows& rows = m_curves.rows;
+  /// Those with a number: others hold remarks.
+  std::vector<std::size_t> keptColumns() const {
+    const std::vector<std::vector<double>>& columns = m_curves.rows.columns;
     std::vector<std::size_t> kept;
-    for (std::size_t c = 0; c < rows.columns.size(); ++c) {
-      const std::vector<double>& column = rows.columns[c];
-      if (rows.columns.size() == 1 ||
-          std::any_of(column.begin(), column.end(), [](double v) { return !std::isnan(v); })) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const auto isThere = [](double value) { return !std::isnan(value); };
+      if (columns.size() == 1 || std::any_of(columns[c].begin(), columns[c].end(), isThere)) {
         kept.push_back(c);
       }
     }
-    if (kept.empty()) {
-      return std::nullopt;
-    }
-    SampledRows taken;
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      const std::size_t c = kept[k];
+    return kept;
+  }
+
+  void giveNames(const ColumnHeading& heading) {
+    const std::size_t kept = keptColumns().size();
+    for (std::size_t c = 0; c + 1 < m_columns; ++c) {
       std::string name = c < heading.names.size() ? heading.names[c] : "";
       if (name.empty()) {
-        name = kept.size() == 1 ? stemOf(m_text.where) : "column " + std::to_string(c + 2);
+        name = kept == 1 ? stemOf(m_text.where) : "column " + std::to_string(c + 2);
       }
-      taken.names.push_back(std::move(name));
-      taken.columns.push_back(std::move(rows.columns[c]));
-      for (std::size_t row = 0; row < rows.wavelengthsNm.size() && !rows.flaws.empty(); ++row) {
-        if (const auto flaw = rows.flaws.find({row, c}); flaw != rows.flaws.end()) {
-          taken.flaws.emplace(std::pair(row, k), flaw->second);
-        }
-      }
+      m_curves.rows.names.push_back(std::move(name));
     }
-    taken.where = rows.where;
-    taken.wavelengthsNm = std::move(rows.wavelengthsNm);
-    taken.rowWhere = std::move(rows.rowWhere);
-    rows = std::move(taken);
-    return std::move(m_curves);
+  }
+
+  std::vector<TableCurves> byScale(const std::vector<std::size_t>& kept, const ColumnHeading& heading) {
+    std::vector<TableCurves> all;
+    for (std::size_t begin = 0; begin < kept.size();) {
+      const bool percent = heading.percent[kept[begin]];
+      std::size_t end = begin;
+      while (end < kept.size() && heading.percent[kept[end]] == percent) {
+        ++end;
+      }
+      const std::vector<std::size_t> run(kept.begin() + static_cast<std::ptrdiff_t>(begin),
+                                         kept.begin() + static_cast<std::ptrdiff_t>(end));
+      TableCurves curves = begin == 0 && end == kept.size() ? std::move(m_curves) : m_curves;
+      curves.rows = columnsOf(std::move(curves.rows), run);
+      curves.scale = percent ? StatedScale::Percent : StatedScale::NotStated;
+      all.push_back(std::move(curves));
+      begin = end;
+    }
+    return all;
   }
 
   const TableText& m_text;
@@ -272,8 +280,8 @@ std::vector<TableCurves> readCurvesInColumns(const TableText& text) {
     if (block.rows.size() > kMostTableRows) {
       throw InputError(text.where, "rows", "", "more than one million; resample to a wider interval");
     }
-    if (std::optional<TableCurves> curves = ColumnsReader(text, block).read()) {
-      all.push_back(*std::move(curves));
+    for (TableCurves& curves : ColumnsReader(text, block).read()) {
+      all.push_back(std::move(curves));
     }
   }
   if (all.empty()) {

@@ -47,11 +47,25 @@ bool commasAreDecimal(std::string_view line) {
   return line.find(' ') != std::string_view::npos;
 }
 
-char separatorOf(std::string_view line) {
-  for (const char separator : {';', '\t'}) {
-    if (line.find(separator) != std::string_view::npos) {
-      return separator;
+/// "380,<tab>0.5": tabs that only pad what commas separate, or stand at the line's end.
+bool tabsArePadding(std::string_view line) {
+  line = trimmed(line);
+  for (std::size_t tab = line.find('\t'); tab != std::string_view::npos; tab = line.find('\t', tab + 1)) {
+    const std::size_t before = line.find_last_not_of(" \t", tab);
+    const std::size_t behind = line.find_first_not_of(" \t", tab);
+    if (line[before] != ',' && line[behind] != ',') {
+      return false;
     }
+  }
+  return line.find(',') != std::string_view::npos;
+}
+
+char separatorOf(std::string_view line) {
+  if (line.find(';') != std::string_view::npos) {
+    return ';';
+  }
+  if (line.find('\t') != std::string_view::npos && !tabsArePadding(line)) {
+    return '\t';
   }
   // The white space of "Spectral Data 380[nm],0,5" separates nothing.
   const bool hasComma = line.find(',') != std::string_view::npos;
@@ -173,7 +187,7 @@ std::vector<std::string_view> cellsOf(const TableLine& line, const TableText& te
       return cells;
     }
     rest = isWhite ? trimmed(rest.substr(end)) : rest.substr(end + 1);
-    while (!isWhite && !rest.empty() && rest.front() == ' ') {
+    while (!isWhite && !rest.empty() && (rest.front() == ' ' || (rest.front() == '\t' && text.separator != '\t'))) {
       rest.remove_prefix(1);
     }
   }

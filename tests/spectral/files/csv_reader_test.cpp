@@ -28,6 +28,7 @@ TEST(CsvReaderTest, AnyDelimiterDecimalSignLineEndAndOrder) {
       {"spaces", "  400   0.5\n  410   1.5  \n"},
       {"decimal comma and semicolon", "400,0;0,5\n410,0;1,5\n"},
       {"decimal comma and tab", "400\t0,5\n410\t1,5\n"},
+      {"comma padded by tabs", "nm,\tpower\t\n400,\t0.5\t\n410, \t1.5\n"},
       {"decimal comma and space", "400 0,5\n410 1,5\n"},
       {"carriage returns", "400,0.5\r\n410,1.5\r\n"},
       {"old carriage returns", "400,0.5\r410,1.5\r"},

@@ -2,8 +2,12 @@
 // What is taken and what is refused at the edges of the layouts; whole files are in tests/oracle/test_spectra_files.py.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "spectral/fixture.h"
+#include "spectral/temporary_folder.h"
 
 namespace metamer::spectral {
 namespace {
@@ -95,12 +99,57 @@ TEST(LayoutsTest, NormOfCgatsIsItsScale) {
   EXPECT_EQ(read(text("1.0", "0.5"), SpectralQuantity::Reflectance)[0].values(), (Values{0.5, 1}));
 }
 
+TEST(LayoutsTest, BandsOfCgatsLieWhereTheHeaderSays) {
+  const auto table = [](const std::string& end) {
+    return "SPECT\n\nSPECTRAL_BANDS \"4\"\nSPECTRAL_START_NM \"380\"\nSPECTRAL_END_NM \"" + end +
+           "\"\nBEGIN_DATA_FORMAT\nSPEC_380 SPEC_383 SPEC_387 SPEC_390\nEND_DATA_FORMAT\nBEGIN_DATA\n1 2 3 4\n"
+           "END_DATA\n";
+  };
+  EXPECT_NEAR(read(table("390"))[0].wavelengthsNm()[1], 383.0 + 1.0 / 3, 1e-9);
+  EXPECT_NEAR(read(table("390"))[0].wavelengthsNm()[2], 386.0 + 2.0 / 3, 1e-9);
+  // A header of other bands than the fields': the fields.
+  EXPECT_EQ(read(table("420"))[0].wavelengthsNm(), (Values{380, 383, 387, 390}));
+}
+
 TEST(LayoutsTest, NoiseOfFivePercentIsTheMost) {
   EXPECT_EQ(read("380,1\n480,-0.05\n780,1\n")[0].values(), (Values{1, 0, 1}));
   EXPECT_EQ(
       errorOf([] { read("380,1\n480,-0.051\n780,1\n"); }),
       "lamp.csv:2: spectral power distribution '-0.051': must not be negative; set measurement noise below zero to "
       "0");
+}
+
+/// As a spectrometer's program writes what it measured beside what it made of it.
+constexpr const char* kSpectrometer =
+    "Averaging Nr. [scans]: 10\n"
+    "Wave   ;Sample   ;Dark     ;Reflectance;Share\n"
+    "[nm]   ;[counts] ;[counts] ;[%];\n\n"
+    " 379.50;   17.000;  -50.000;20.000;0.1\n"
+    " 580.00;  100.000;  -14.500;50.000;0.5\n"
+    " 780.50;   15.000;   -7.000;1.000;0.9\n";
+
+TEST(LayoutsTest, OneColumnIsReadWhateverTheOthersHold) {
+  const std::string file = utf8(scratchFile("avantes.dat"));
+  std::ofstream(file) << kSpectrometer;
+  EXPECT_NE(errorOf([&] { readSpectralFile(file, SpectralQuantity::Reflectance); }).find("must not be negative"),
+            std::string::npos);
+  const std::vector<Spectrum> chosen = readSpectralFile(file + ":reflectance", SpectralQuantity::Reflectance);
+  ASSERT_EQ(chosen.size(), 1U);
+  EXPECT_EQ(chosen[0].name(), "Reflectance");
+  EXPECT_EQ(chosen[0].values()[1], 0.5);
+  EXPECT_EQ(readSpectralFile(file + ":1", SpectralQuantity::SpectralPowerDistribution)[0].name(), "Sample");
+  EXPECT_EQ(
+      errorOf([&] { readSpectralFile(file + ":gloss", SpectralQuantity::Reflectance); }),
+      file + ": column 'gloss': is not there; give a name or a number from 1 of: Sample, Dark, Reflectance, Share");
+}
+
+TEST(LayoutsTest, PercentCountsForItsColumnAlone) {
+  const std::vector<Spectrum> apart = read("nm,a (%),b\n380,0.5,0.5\n780,0.5,0.5\n", SpectralQuantity::Reflectance);
+  EXPECT_EQ(apart[0].values()[0], 0.005);
+  EXPECT_EQ(apart[1].values()[0], 0.5);
+  // A heading over several columns stands over the first.
+  const std::vector<Spectrum> over = read("nm,a,b\n,%,\n380,0.5,0.5\n780,0.5,0.5\n", SpectralQuantity::Reflectance);
+  EXPECT_EQ(over[1].values()[0], 0.005);
 }
 
 TEST(LayoutsTest, FilesAndTheirColumns) {

@@ -30,11 +30,12 @@ bool hasSpectralExtension(const std::filesystem::path& file);
 bool looksLikeSpectralFile(const std::string& nameOrFile);
 
 /// Reads the spectra of a file, or the one that FILE:COLUMN names, by its extension:
-///   .csv .txt .tsv .asc .xls (text)  tables as meters and spreadsheets write them; see readCsv
-///   .sp .ti3 .ccss .cgats            CGATS, as Argyll and i1Profiler write it; read under the extensions above as well
-///   .spdx                            IES TM-27-14 XML
-///   .json                            rawtoaces measurement JSON
-///   .exr                             a spectral picture, its mean or FILE:x,y, by the caller's reader of pictures
+///   .csv .txt .tsv .tab .dat .prn .asc .xls (text)  tables as meters and spreadsheets write them; see readCsv
+///   .sp .ti3 .ccss .cgats  CGATS, as Argyll and i1Profiler write it; read under the extensions above as well
+///   .spdx                  IES TM-27-14 XML
+///   .json                  rawtoaces measurement JSON
+///   .exr                   a spectral picture, its mean or FILE:x,y, by the caller's reader of pictures
+/// Of a table's columns the one that FILE:COLUMN names alone is judged.
 /// @param file      FILE or FILE:COLUMN, see SpectralFileName
 /// @param quantity  what the caller asks for; a file that states another quantity is refused
 /// @param pictures  reads .exr; without it they are refused
