@@ -43,8 +43,8 @@ SkinCoordinates MostProbable::of(const Eigen::Vector3d& rgb, const SkinCoordinat
   Eigen::Vector3d colour = m_colour(at);
   double now = cost(at, colour - rgb, perNoise);
   double damping = 1e-3;
+  Jacobian slope = this->slope(at, colour) * perNoise;
   for (int round = 0; round < kMostRounds; ++round) {
-    const Jacobian slope = this->slope(at, colour) * perNoise;
     Eigen::Matrix<double, 5, 5> curvature = slope.transpose() * slope + m_precision;
     SkinCoordinates downhill = -(slope.transpose() * (colour - rgb) * perNoise + m_precision * (at - m_mean));
     for (Eigen::Index i = 0; i < 5; ++i) {
@@ -76,6 +76,7 @@ SkinCoordinates MostProbable::of(const Eigen::Vector3d& rgb, const SkinCoordinat
     if (isEnough) {
       break;
     }
+    slope = this->slope(at, colour) * perNoise;
   }
   return at;
 }

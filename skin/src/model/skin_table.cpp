@@ -72,7 +72,6 @@ SkinTable::SkinTable(const SkinModel& model) {
   m_knots.resize(kSkinBands * kPerBand);
   Eigen::ArrayXd start(kSkinBands);
   Eigen::ArrayXd scale(kSkinBands);
-  std::vector<LayerOptics> layers(kPerThickness);
   std::vector<double> albedos(kPerThickness);
   for (int band = 0; band < kSkinBands; ++band) {
     const double reduced = optics.reducedScattering()[band];
@@ -84,18 +83,22 @@ SkinTable::SkinTable(const SkinModel& model) {
     const double most = similarity(blood + optics.bloodRest()[band], reduced);
     start[band] = least;
     scale[band] = (kDermes - 1) / (most - least);
+    LayerGrid grid{std::vector<double>(kDepths),
+                   std::vector<double>(kDermes),
+                   optics.scattering()[band],
+                   optics.anisotropy()[band],
+                   0,
+                   model.dermisThicknessCm()};
+    for (int i = 0; i < kDermes; ++i) {
+      const double s = least + (most - least) * static_cast<double>(i) / (kDermes - 1);
+      grid.dermisAbsorptions[static_cast<std::size_t>(i)] = reduced * s * s / (1 - s * s);
+    }
     for (int thickness = 0; thickness < kThicknesses; ++thickness) {
-      const double cm = thicknessAt(thickness) * 1e-4;
-      for (std::size_t i = 0; i < kPerThickness; ++i) {
-        const double s = least + (most - least) * static_cast<double>(i % kDermes) / (kDermes - 1);
-        layers[i] = {depthAt(static_cast<int>(i / kDermes)) / cm,
-                     reduced * s * s / (1 - s * s),
-                     optics.scattering()[band],
-                     optics.anisotropy()[band],
-                     cm,
-                     model.dermisThicknessCm()};
+      grid.epidermisThicknessCm = thicknessAt(thickness) * 1e-4;
+      for (int i = 0; i < kDepths; ++i) {
+        grid.epidermisAbsorptions[static_cast<std::size_t>(i)] = depthAt(i) / grid.epidermisThicknessCm;
       }
-      layeredAlbedos(layers, albedos);
+      layeredAlbedoGrid(grid, albedos);
       std::copy(albedos.begin(), albedos.end(),
                 m_knots.begin() + static_cast<std::ptrdiff_t>(
                                       (static_cast<std::size_t>(band * kThicknesses + thickness)) * kPerThickness));

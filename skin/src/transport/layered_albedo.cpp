@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "metamer/spectral/input_error.h"
 #include "transport/layer_checks.h"
@@ -83,8 +84,21 @@ struct Scattering {
   Matrix4 even;
 };
 
-METAMER_INLINE void describe(const Directions& at, const Lanes& coefficient, const Lanes& anisotropy,
-                             Scattering& result) {
+using LaneValues = std::array<double, kLanes>;
+
+METAMER_INLINE void load(const LaneValues& values, Lanes& result) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    result[i] = values[i];
+  }
+}
+
+METAMER_FOR_EACH_PROCESSOR
+void describe(const Directions& at, const LaneValues& coefficients, const LaneValues& anisotropies,
+              Scattering& result) {
+  Lanes coefficient;
+  Lanes anisotropy;
+  load(coefficients, coefficient);
+  load(anisotropies, anisotropy);
   std::array<Lanes, kMoments> moment;
   Lanes power = coefficient;
   for (std::size_t k = 0; k < kMoments; ++k) {
@@ -126,8 +140,18 @@ struct Slab {
   Matrix4 transmission;
 };
 
-METAMER_INLINE void solveSlab(const Directions& at, const Scattering& scattering, const Lanes& absorption,
-                              const Lanes& thickness, int doublings, Slab& slab) {
+/// A layer of one scattering, in each lane.
+struct Layers {
+  LaneValues absorption{};
+  LaneValues thickness{};
+};
+
+METAMER_FOR_EACH_PROCESSOR
+void solveSlab(const Directions& at, const Scattering& scattering, const Layers& layers, int doublings, Slab& slab) {
+  Lanes absorption;
+  Lanes thickness;
+  load(layers.absorption, absorption);
+  load(layers.thickness, thickness);
   const Lanes half = thickness * (0.5 / static_cast<double>(1 << doublings));
   const Lanes extinction = absorption + scattering.extinction;
   Matrix4 p;
@@ -181,31 +205,9 @@ METAMER_INLINE void solveSlab(const Directions& at, const Scattering& scattering
   scaleAndShift(slab.transmission, 1, -1, slab.transmission);
 }
 
-/// The inputs of kLanes wavelengths side by side, and their albedos.
-struct Group {
-  std::array<std::array<double, kLanes>, 6> in;
-  std::array<double, kLanes> albedo;
-};
-
-METAMER_INLINE void load(const std::array<double, kLanes>& values, Lanes& result) {
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    result[i] = values[i];
-  }
-}
-
+/// The albedos of epidermes on dermes.
 METAMER_FOR_EACH_PROCESSOR
-void solve(const Directions& at, Group& group, int dermisDoublings) {
-  std::array<Lanes, 6> in;
-  for (std::size_t i = 0; i < in.size(); ++i) {
-    load(group.in[i], in[i]);
-  }
-  Scattering scattering;
-  describe(at, in[2], in[3], scattering);
-  Slab epidermis;
-  Slab dermis;
-  solveSlab(at, scattering, in[0], in[4], kEpidermisDoublings, epidermis);
-  solveSlab(at, scattering, in[1], in[5], dermisDoublings, dermis);
-
+void addSlabs(const Directions& at, const Slab& epidermis, const Slab& dermis, LaneValues& albedos) {
   // R e + T (1 - D R)^-1 D T e, e the diffuse light; the albedo is the flux of that, over 1/2.
   Vector4 light;
   for (std::size_t i = 0; i < kStreams; ++i) {
@@ -230,45 +232,132 @@ void solve(const Directions& at, Group& group, int dermisDoublings) {
     albedo = albedo + 2.0 * at.scale[i] * (reflected[i] + below[i]);
   }
   for (std::size_t i = 0; i < kLanes; ++i) {
-    group.albedo[i] = albedo[i];
+    albedos[i] = albedo[i];
   }
 }
 
-/// Fills a lane; whether its dermis is deep.
-bool fill(const LayerOptics& layers, std::size_t lane, Group& group) {
-  const double scattered = layers.scattering * (1 - std::pow(layers.anisotropy, static_cast<double>(kMoments)));
-  const bool isDeep = layers.dermisThicknessCm * scattered > kDeep;
-  const double deepest = kInfiniteDepth / (scattered + layers.dermisAbsorption);
-  group.in[0][lane] = layers.epidermisAbsorption;
-  group.in[1][lane] = layers.dermisAbsorption;
-  group.in[2][lane] = layers.scattering;
-  group.in[3][lane] = layers.anisotropy;
+/// What delta-M leaves of the scattering.
+double scaledScattering(double scattering, double anisotropy) {
+  return scattering * (1 - std::pow(anisotropy, static_cast<double>(kMoments)));
+}
+
+double epidermisThickness(double cm, double absorption) {
   // Where nothing is absorbed, 25 / 0 is infinite.
-  group.in[4][lane] = std::min(layers.epidermisThicknessCm, kOpaqueDepth / layers.epidermisAbsorption);
-  group.in[5][lane] = std::min({layers.dermisThicknessCm, deepest, kOpaqueDepth / layers.dermisAbsorption});
-  return isDeep;
+  return std::min(cm, kOpaqueDepth / absorption);
+}
+
+double dermisThickness(double cm, double absorption, double scaled) {
+  return std::min({cm, kInfiniteDepth / (scaled + absorption), kOpaqueDepth / absorption});
+}
+
+int dermisDoublings(bool isDeep) {
+  return isDeep ? kInfiniteDoublings : kDermisDoublings;
+}
+
+void requireAlbedos(std::size_t albedos, std::size_t layers) {
+  if (albedos != layers) {
+    throw spectral::InputError("", "albedos", std::to_string(albedos),
+                               "must be as many as the layers, " + std::to_string(layers));
+  }
+}
+
+const Directions& directions() {
+  static const Directions at;
+  return at;
+}
+
+/// Layers of a grid, kLanes a slab; the last one again where they do not come out even.
+template <typename Thickness>
+std::vector<Slab> solveSlabs(const Scattering& scattering, const std::vector<double>& absorptions, int doublings,
+                             const Thickness& thickness) {
+  std::vector<Slab> slabs((absorptions.size() + kLanes - 1) / kLanes);
+  for (std::size_t i = 0; i < slabs.size(); ++i) {
+    Layers layers;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      layers.absorption[lane] = absorptions[std::min(i * kLanes + lane, absorptions.size() - 1)];
+      layers.thickness[lane] = thickness(layers.absorption[lane]);
+    }
+    solveSlab(directions(), scattering, layers, doublings, slabs[i]);
+  }
+  return slabs;
+}
+
+/// One lane of a slab in all of them.
+Slab everywhere(const Slab& slab, std::size_t lane) {
+  Slab result;
+  for (std::size_t i = 0; i < 16; ++i) {
+    result.reflection.m[i] = Lanes{} + slab.reflection.m[i][lane];
+    result.transmission.m[i] = Lanes{} + slab.transmission.m[i][lane];
+  }
+  return result;
 }
 
 }  // namespace
 
 void layeredAlbedos(std::span<const LayerOptics> layers, std::span<double> albedos) {
-  if (layers.size() != albedos.size()) {
-    throw spectral::InputError("", "albedos", std::to_string(albedos.size()),
-                               "must be as many as the layers, " + std::to_string(layers.size()));
-  }
+  requireAlbedos(albedos.size(), layers.size());
   for (const LayerOptics& one : layers) {
     requireLayers(one);
   }
-  static const Directions at;
   for (std::size_t first = 0; first < layers.size(); first += kLanes) {
-    Group group;
+    LaneValues coefficients;
+    LaneValues anisotropies;
+    Layers epidermes;
+    Layers dermes;
     bool isDeep = false;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      isDeep |= fill(layers[std::min(first + lane, layers.size() - 1)], lane, group);
+      const LayerOptics& one = layers[std::min(first + lane, layers.size() - 1)];
+      const double scaled = scaledScattering(one.scattering, one.anisotropy);
+      isDeep |= one.dermisThicknessCm * scaled > kDeep;
+      coefficients[lane] = one.scattering;
+      anisotropies[lane] = one.anisotropy;
+      epidermes.absorption[lane] = one.epidermisAbsorption;
+      epidermes.thickness[lane] = epidermisThickness(one.epidermisThicknessCm, one.epidermisAbsorption);
+      dermes.absorption[lane] = one.dermisAbsorption;
+      dermes.thickness[lane] = dermisThickness(one.dermisThicknessCm, one.dermisAbsorption, scaled);
     }
-    solve(at, group, isDeep ? kInfiniteDoublings : kDermisDoublings);
+    Scattering scattering;
+    Slab epidermis;
+    Slab dermis;
+    LaneValues values;
+    describe(directions(), coefficients, anisotropies, scattering);
+    solveSlab(directions(), scattering, epidermes, kEpidermisDoublings, epidermis);
+    solveSlab(directions(), scattering, dermes, dermisDoublings(isDeep), dermis);
+    addSlabs(directions(), epidermis, dermis, values);
     for (std::size_t lane = 0; lane < kLanes && first + lane < layers.size(); ++lane) {
-      albedos[first + lane] = group.albedo[lane];
+      albedos[first + lane] = values[lane];
+    }
+  }
+}
+
+void layeredAlbedoGrid(const LayerGrid& grid, std::span<double> albedos) {
+  const std::size_t dermes = grid.dermisAbsorptions.size();
+  requireAlbedos(albedos.size(), grid.epidermisAbsorptions.size() * dermes);
+  for (const double epidermis : grid.epidermisAbsorptions) {
+    requireLayers({epidermis, 0, grid.scattering, grid.anisotropy, grid.epidermisThicknessCm, grid.dermisThicknessCm});
+  }
+  for (const double dermis : grid.dermisAbsorptions) {
+    requireLayers({0, dermis, grid.scattering, grid.anisotropy, grid.epidermisThicknessCm, grid.dermisThicknessCm});
+  }
+  const double scaled = scaledScattering(grid.scattering, grid.anisotropy);
+  LaneValues coefficients;
+  LaneValues anisotropies;
+  coefficients.fill(grid.scattering);
+  anisotropies.fill(grid.anisotropy);
+  Scattering scattering;
+  describe(directions(), coefficients, anisotropies, scattering);
+  const std::vector<Slab> above =
+      solveSlabs(scattering, grid.epidermisAbsorptions, kEpidermisDoublings,
+                 [&](double absorption) { return epidermisThickness(grid.epidermisThicknessCm, absorption); });
+  const std::vector<Slab> below =
+      solveSlabs(scattering, grid.dermisAbsorptions, dermisDoublings(grid.dermisThicknessCm * scaled > kDeep),
+                 [&](double absorption) { return dermisThickness(grid.dermisThicknessCm, absorption, scaled); });
+  for (std::size_t i = 0; i < grid.epidermisAbsorptions.size(); ++i) {
+    const Slab epidermis = everywhere(above[i / kLanes], i % kLanes);
+    for (std::size_t first = 0; first < dermes; first += kLanes) {
+      LaneValues values;
+      addSlabs(directions(), epidermis, below[first / kLanes], values);
+      std::copy_n(values.begin(), std::min(kLanes, dermes - first), &albedos[i * dermes + first]);
     }
   }
 }

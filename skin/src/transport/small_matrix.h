@@ -23,8 +23,9 @@ using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 using Lanes = Eigen::Array<double, kLanes, 1>;
 #endif
 
-/// A 4 x 4 matrix, a lane each.
-struct Matrix4 {
+/// A 4 x 4 matrix, a lane each. Aligned by hand: lanes ask for that only where the instruction set has such vectors,
+/// and one of several sets reads what a function for none of them laid out.
+struct alignas(kLanes * sizeof(double)) Matrix4 {
   std::array<Lanes, 16> m;
 
   METAMER_INLINE Lanes& operator()(std::size_t i, std::size_t j) { return m[4 * i + j]; }

@@ -35,6 +35,14 @@ TEST(SkinRanges, Layers) {
   const auto refused = [](const char* what, const LayerOptics& layers) {
     EXPECT_REFUSED(what, layeredAlbedo(layers));
     EXPECT_REFUSED(what, layeredAlbedoByPlainDoubling(layers, 4));
+    double albedo = 0;
+    EXPECT_REFUSED(what, layeredAlbedoGrid({{layers.epidermisAbsorption},
+                                            {layers.dermisAbsorption},
+                                            layers.scattering,
+                                            layers.anisotropy,
+                                            layers.epidermisThicknessCm,
+                                            layers.dermisThicknessCm},
+                                           {&albedo, 1}));
     EXPECT_REFUSED(what, walkedAlbedo(layers, WalkSpace::Three, 10, 1));
   };
   refused("epidermis absorption '-1'", with(&LayerOptics::epidermisAbsorption, -1.0));
@@ -49,6 +57,8 @@ TEST(SkinRanges, Layers) {
   EXPECT_REFUSED("paths '1'", walkedAlbedo(kUsual, WalkSpace::Two, 1, 1));
   double one = 0;
   EXPECT_REFUSED("albedos '1'", layeredAlbedos({}, {&one, 1}));
+  EXPECT_REFUSED("albedos '1'", layeredAlbedoGrid({{1, 2}, {1}, 150, 0.78, 0.01}, {&one, 1}));
+  EXPECT_TAKEN(layeredAlbedoGrid({{1}, {1}, 150, 0.78, 0.01}, {&one, 1}));
 }
 
 TEST(SkinRanges, Skins) {

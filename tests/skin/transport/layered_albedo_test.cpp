@@ -109,5 +109,19 @@ TEST(LayeredAlbedo, OfAnyNumberAtOnceIsTheSame) {
   }
 }
 
+TEST(LayeredAlbedo, OfAGridIsThatOfEachPair) {
+  // A shallow dermis and a deep one; the counts are no multiples of the lanes.
+  for (const double dermisCm : {0.21, 0.6, std::numeric_limits<double>::infinity()}) {
+    const LayerGrid grid{{0, 0.3, 4, 70, 2e5}, {0.02, 1, 9, 40, 200, 3e3, 1e5}, 230, 0.78, 0.012, dermisCm};
+    std::vector<double> albedos(5 * 7);
+    layeredAlbedoGrid(grid, albedos);
+    for (std::size_t i = 0; i < albedos.size(); ++i) {
+      EXPECT_EQ(albedos[i], layeredAlbedo({grid.epidermisAbsorptions[i / 7], grid.dermisAbsorptions[i % 7], 230, 0.78,
+                                           0.012, dermisCm}))
+          << i << ' ' << dermisCm;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace metamer::skin
