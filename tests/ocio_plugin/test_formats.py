@@ -62,8 +62,9 @@ class Formats(unittest.TestCase):
         for adaptation in (0, 1):
             for entry in formats():
                 file = cls.folder / f"{adaptation}_{entry['name'].replace('/', '_')}{entry['extension']}"
-                lutgen("bake", "--illuminant-in", "D65", "--illuminant-out", "HP1", "--adaptation", adaptation, "--size",
-                       SIZE, "--format", entry["name"], "-o", file)
+                # The smooth scene is solved in half the time of the others.
+                lutgen("bake", "--illuminant-in", "D65", "--illuminant-out", "HP1", "--adaptation", adaptation, "--scene", "smooth",
+                       "--size", SIZE, "--format", entry["name"], "-o", file)
                 cls.files[adaptation, entry["name"]] = file
                 settings = json.loads(Path(f"{file}.json").read_text(encoding="utf-8"))["transform"]
                 cls.has_shaper[entry["name"]] = "shaper_entries" in settings

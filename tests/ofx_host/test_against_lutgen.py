@@ -57,7 +57,16 @@ class AgainstLutgen(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         return np.fromfile(result, np.float32).reshape(height, width, 4)[::-1], run.stderr
 
+    made = {}
+
     def lutgen(self, rgb, recipe, engine):
+        """lutgen apply's result, computed once a recipe, engine and picture: tiles and threads are the plug-in's alone."""
+        key = (Path(recipe).read_text(), engine, rgb.tobytes())
+        if key not in self.made:
+            self.made[key] = self.applied(rgb, recipe, engine)
+        return self.made[key]
+
+    def applied(self, rgb, recipe, engine):
         source, result = self.folder / "in.exr", self.folder / "out.exr"
         pictures.write_exr(source, rgb)
         # The pixels are the recipe's, whatever the helper's header says.
@@ -93,7 +102,7 @@ class AgainstLutgen(unittest.TestCase):
             "outputIlluminant": "HP1", "outputFilter": "Lee 205 Half C.T. Orange", "outputDensity": 0.5,
             "adaptation": 0.25, "keepExposure": 1, "cat": "bradford",
         }
-        self.assertAgree(pictures.photograph("astronaut.png"), settings, recipe, threads=2, tile=173)
+        self.assertAgree(pictures.photograph("astronaut.png")[::2, ::2], settings, recipe, threads=2, tile=173)
 
     def test_hard_pixels_whatever_the_tiles_and_threads(self):
         recipe = self.recipe("input: {illuminant: 5600 K}\noutput: {illuminant: FL11, adaptation: 0.5}\n")
