@@ -36,8 +36,10 @@ class NewestOcio(unittest.TestCase):
 
     def test_chains_agree_over_forty_stops(self):
         for pair in PAIRS:
+            # The first as large as it comes, the others of half as many nodes, which take an eighth of the time.
+            size = [] if pair == PAIRS[0] else ["--size", "33"]
             # A name of its own: OCIO keeps what it has read by name.
-            file = bake(self.folder.name, f"{pair[0]}_{pair[1]}.ctf", "--illuminant-in", pair[0], "--illuminant-out", pair[1])
+            file = bake(self.folder.name, f"{pair[0]}_{pair[1]}.ctf", "--illuminant-in", pair[0], "--illuminant-out", pair[1], *size)
             # All exposures at once: each reader takes the file in once.
             pixels = np.tile(colours(4000), (len(STOPS), 1))
             pixels[:, :3] *= np.repeat(2.0 ** np.array(STOPS), 4000)[:, None]
