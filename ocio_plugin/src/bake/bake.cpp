@@ -52,9 +52,8 @@ class Baking {
     m_judged.tell(kCertifiedShare);
   }
 
-  /// The same of a file on a graphics card.
-  void certifyOnCards(const std::filesystem::path& file) {
-    const auto operators = shaderOperators(file);
+  /// The same of these operators on a graphics card.
+  void certifyOnCards(const OCIO::ConstGroupTransformRcPtr& operators) {
     const auto candidate = [&](TextureDepth depth) {
       return Candidate(textureProcessor(operators, depth), m_operators.toPixels, m_operators.fromPixels);
     };
@@ -140,6 +139,7 @@ BakedText bakeText(const sip::Recipe& recipe, const spectral::DataLibrary& libra
   Certificate& certificate = baking.certificate();
   certificate.format = format.name;
   baking.certify();
+  baking.certifyOnCards(shaderOperators(baking.group()));
   std::string text = textOf(baking, format, options);
   certificate.sha256 = sha256(text);
   return {std::move(text), std::move(certificate)};
@@ -159,7 +159,7 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   lut.file().write(text);
   certificate.sha256 = sha256(text);
   baking.certify(PixelProcessor::fromFile(lut.file().path()));
-  baking.certifyOnCards(lut.file().path());
+  baking.certifyOnCards(shaderOperators(lut.file().path()));
   if (options.tolerance && certificate.error.p99 > 1.01 * *options.tolerance) {
     throw InputError(spectral::utf8(file), "tolerance", std::to_string(*options.tolerance),
                      "is lost in the digits of " + format.name + "; name a format that keeps more");

@@ -51,16 +51,20 @@ bool roundIf(const OCIO::TransformRcPtr& transform) {
 
 }  // namespace
 
-OCIO::ConstGroupTransformRcPtr shaderOperators(const std::filesystem::path& file) {
+OCIO::ConstGroupTransformRcPtr shaderOperators(const OCIO::ConstTransformRcPtr& transform) {
   try {
-    // As for a shader: what can be one operator is one, and tables that are asked backwards are made anew.
+    // As for a shader: tables that are asked backwards are made anew.
     return OCIO::Config::CreateRaw()
-        ->getProcessor(fileTransform(file))
+        ->getProcessor(transform)
         ->getOptimizedProcessor(OCIO::BIT_DEPTH_F32, OCIO::BIT_DEPTH_F32, OCIO::OPTIMIZATION_DEFAULT)
         ->createGroupTransform();
   } catch (const OCIO::Exception& error) {
     throw spectral::InputError("OpenColorIO", "", "", spectral::colourReason(error.what()));
   }
+}
+
+OCIO::ConstGroupTransformRcPtr shaderOperators(const std::filesystem::path& file) {
+  return shaderOperators(fileTransform(file));
 }
 
 PixelProcessor textureProcessor(const OCIO::ConstGroupTransformRcPtr& operators, TextureDepth depth) {

@@ -176,6 +176,11 @@ TEST_F(TextureProcessorTest, FloatTexturesAreTheFile) {
   EXPECT_EQ(certificate.onCards->floats.p99, certificate.error.p99);
   EXPECT_NE(certificate.onCards->halves.p99, certificate.error.p99);
   EXPECT_NEAR(certificate.onCards->halves.p99, certificate.error.p99, 1.0);
+  // A text says the same of itself, but for the digits that it keeps of its tables.
+  const auto ofText = bakeText(recipeOf("D65", "HP1"), testLibrary(), certificate.format, options).certificate.onCards;
+  ASSERT_TRUE(ofText.has_value());
+  EXPECT_NEAR(ofText->floats.p99, certificate.onCards->floats.p99, 1e-3);
+  EXPECT_NEAR(ofText->halves.p99, certificate.onCards->halves.p99, 0.02);
   EXPECT_NE(certificate.json().find("\"half_textures\""), std::string::npos);
 }
 

@@ -13,7 +13,11 @@ enum class TextureDepth {
   Half    ///< 16 bits, to the nearest: 11 digits of two, infinite beyond 65504
 };
 
-/// What OCIO's shader for a LUT file of any format that it reads is made of.
+/// What OCIO's shader for a transform is made of: what can be one operator is one.
+/// @throws spectral::InputError where OCIO refuses it
+OCIO::ConstGroupTransformRcPtr shaderOperators(const OCIO::ConstTransformRcPtr& transform);
+
+/// The same of a LUT file of any format that it reads.
 /// @throws spectral::InputError: no such file, or OCIO cannot read it
 OCIO::ConstGroupTransformRcPtr shaderOperators(const std::filesystem::path& file);
 
