@@ -5,6 +5,7 @@
 #include <cuda_words.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -260,6 +261,32 @@ Status cuMemGetAddressRange_v2(Address* base, std::size_t* bytes, Address pointe
   return 0;
 }
 
+// What a host asks of it, in the primary context.
+Status cuDeviceGet(std::int32_t* device, int index) {
+  *device = index;
+  return 0;
+}
+
+Status cuDeviceGetName(char* name, int size, std::int32_t /*device*/) {
+  std::snprintf(name, static_cast<std::size_t>(size), "the processor in a card's place");
+  return 0;
+}
+
+Status cuDevicePrimaryCtxRetain(void** context, std::int32_t /*device*/) {
+  static void* const primary = driver().makeContext();
+  *context = primary;
+  return 0;
+}
+
+Status cuDevicePrimaryCtxRelease_v2(std::int32_t /*device*/) {
+  return 0;
+}
+
+Status cuCtxSetCurrent(void* context) {
+  driver().setCurrent(context);
+  return 0;
+}
+
 Status cuModuleLoadData(void** module, const void* text) {
   REFUSE("cuModuleLoadData")
   NEEDS_CONTEXT
@@ -356,6 +383,13 @@ Status cuMemcpyHtoDAsync_v2(Address to, const void* from, std::size_t bytes, voi
   return 0;
 }
 
+Status cuMemcpyDtoDAsync_v2(Address to, Address from, std::size_t bytes, void* stream) {
+  NEEDS_CONTEXT
+  streamOf(stream).work.put(
+      [=] { std::memcpy(reinterpret_cast<void*>(to), reinterpret_cast<const void*>(from), bytes); });
+  return 0;
+}
+
 Status cuMemcpyDtoHAsync_v2(void* to, Address from, std::size_t bytes, void* stream) {
   REFUSE("cuMemcpyDtoH")
   NEEDS_CONTEXT {
@@ -366,7 +400,12 @@ Status cuMemcpyDtoHAsync_v2(void* to, Address from, std::size_t bytes, void* str
     }
   }
   count(ledger().reads);
-  streamOf(stream).work.put([=] { std::memcpy(to, reinterpret_cast<const void*>(from), bytes); });
+  // For a test of who compares bits.
+  const bool flipsABit = std::getenv("METAMER_FLIP_A_BIT") != nullptr;  // NOLINT(concurrency-mt-unsafe)
+  streamOf(stream).work.put([=] {
+    std::memcpy(to, reinterpret_cast<const void*>(from), bytes);
+    static_cast<unsigned char*>(to)[bytes / 2] ^= flipsABit ? 1 : 0;
+  });
   return 0;
 }
 
