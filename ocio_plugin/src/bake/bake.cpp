@@ -15,6 +15,7 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
+#include "operators/parallel.h"
 
 namespace metamer::ocio {
 namespace {
@@ -138,8 +139,7 @@ BakedText bakeText(const sip::Recipe& recipe, const spectral::DataLibrary& libra
   Baking baking(recipe, library, format, options);
   Certificate& certificate = baking.certificate();
   certificate.format = format.name;
-  baking.certify();
-  baking.certifyOnCards(shaderOperators(baking.group()));
+  inParallel([&] { baking.certify(); }, [&] { baking.certifyOnCards(shaderOperators(baking.group())); });
   std::string text = textOf(baking, format, options);
   certificate.sha256 = sha256(text);
   return {std::move(text), std::move(certificate)};
@@ -158,8 +158,8 @@ Certificate bakeFile(const sip::Recipe& recipe, const spectral::DataLibrary& lib
   const std::string text = textOf(baking, format, options);
   lut.file().write(text);
   certificate.sha256 = sha256(text);
-  baking.certify(PixelProcessor::fromFile(lut.file().path()));
-  baking.certifyOnCards(shaderOperators(lut.file().path()));
+  inParallel([&] { baking.certify(PixelProcessor::fromFile(lut.file().path())); },
+             [&] { baking.certifyOnCards(shaderOperators(lut.file().path())); });
   if (options.tolerance && certificate.error.p99 > 1.01 * *options.tolerance) {
     throw InputError(spectral::utf8(file), "tolerance", std::to_string(*options.tolerance),
                      "is lost in the digits of " + format.name + "; name a format that keeps more");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "metamer/ocio/pixel_processor.h"
@@ -27,8 +28,10 @@ constexpr int kNoiseCount = 2000;
 constexpr double kNoiseReach = 0.006;
 /// Luminance of the grey against which they are judged.
 constexpr double kNoiseGrey = 0.005;
-/// Chromaticities a task.
+/// Chromaticities, or colours of noise, a task.
 constexpr int kBlock = 250;
+/// Tasks that put the samples in order.
+constexpr int kParts = 8;
 /// Step of the signal to see its slope by, and of light to see CIEDE2000's.
 constexpr float kSignalStep = 1.0F / 2048;
 constexpr double kLightStep = 1e-3;
@@ -113,11 +116,10 @@ class Sampler {
     }
   }
 
-  /// Samples of black's noise.
-  void runNoise(std::vector<CubeSample>& samples) const {
+  /// Samples of black's noise, colours first ... last - 1.
+  void runNoise(int first, int last, std::vector<CubeSample>& samples) const {
     std::vector<Eigen::Vector3d> colours;
-    colours.reserve(kNoiseCount);
-    for (int k = 0; k < kNoiseCount; ++k) {
+    for (int k = first; k < last; ++k) {
       colours.push_back(noiseColour(k));
     }
     std::vector<Eigen::Vector3d> results = colours;
@@ -210,6 +212,37 @@ class Sampler {
   double m_step;
 };
 
+/// By node: what is added up lies together in memory. A counting sort, which keeps the order within a node; each part
+/// of it fills a range of nodes.
+std::vector<CubeSample> byNode(const std::vector<std::vector<CubeSample>>& blocks, int size) {
+  const auto side = static_cast<std::size_t>(size);
+  std::vector<std::size_t> start(side * side * side + 1, 0);
+  for (const auto& block : blocks) {
+    for (const auto& sample : block) {
+      ++start[sample.stencil.node + 1];
+    }
+  }
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<CubeSample> samples(start.back());
+  std::array<std::size_t, kParts + 1> firstNode{};
+  for (std::size_t part = 1; part <= kParts; ++part) {
+    const auto at = std::upper_bound(start.begin(), start.end(), samples.size() * part / kParts);
+    firstNode[part] = part == kParts ? start.size() - 1 : static_cast<std::size_t>(at - start.begin()) - 1;
+  }
+  parallelFor(kParts, [&](int part) {
+    const std::size_t first = firstNode[static_cast<std::size_t>(part)];
+    const std::size_t last = firstNode[static_cast<std::size_t>(part) + 1];
+    for (const auto& block : blocks) {
+      for (const auto& sample : block) {
+        if (sample.stencil.node >= first && sample.stencil.node < last) {
+          samples[start[sample.stencil.node]++] = sample;
+        }
+      }
+    }
+  });
+  return samples;
+}
+
 }  // namespace
 
 void CubeJudge::errors(std::span<const CubeSample> samples, std::span<float> rgba, std::span<float> result) const {
@@ -226,37 +259,17 @@ std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, con
                                     int size, double lowestStop, double highestStop) {
   const Sampler sampler(transform, axes, signal, size, lowestStop, highestStop);
   constexpr int kBlocks = kChromaticityCount / kBlock;
-  std::vector<std::vector<CubeSample>> blocks(kBlocks + 1);
-  parallelFor(kBlocks + 1, [&](int block) {
+  constexpr int kNoiseBlocks = kNoiseCount / kBlock;
+  std::vector<std::vector<CubeSample>> blocks(kBlocks + kNoiseBlocks);
+  parallelFor(kBlocks + kNoiseBlocks, [&](int block) {
     auto& samples = blocks[static_cast<std::size_t>(block)];
-    if (block == kBlocks) {
-      sampler.runNoise(samples);
-    } else {
+    if (block < kBlocks) {
       sampler.run(block * kBlock, (block + 1) * kBlock, samples);
+    } else {
+      sampler.runNoise((block - kBlocks) * kBlock, (block - kBlocks + 1) * kBlock, samples);
     }
   });
-  std::size_t count = 0;
-  for (const auto& block : blocks) {
-    count += block.size();
-  }
-  // By node: what is added up lies together in memory. A counting sort, which keeps the order within a node.
-  const auto side = static_cast<std::size_t>(size);
-  std::vector<std::size_t> start(side * side * side + 1, 0);
-  for (const auto& block : blocks) {
-    for (const auto& sample : block) {
-      ++start[sample.stencil.node + 1];
-    }
-  }
-  for (std::size_t k = 1; k < start.size(); ++k) {
-    start[k] += start[k - 1];
-  }
-  std::vector<CubeSample> samples(count);
-  for (const auto& block : blocks) {
-    for (const auto& sample : block) {
-      samples[start[sample.stencil.node]++] = sample;
-    }
-  }
-  return samples;
+  return byNode(blocks, size);
 }
 
 }  // namespace metamer::ocio

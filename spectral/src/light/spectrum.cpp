@@ -113,9 +113,19 @@ DomainSamples Spectrum::onDomain() const {
   if (m_quantity == SpectralQuantity::SpectralPowerDistribution) {
     return lightOnDomain(*this);
   }
+  // As at(), without a search for each: the wavelengths rise on both sides.
   DomainSamples samples;
+  std::size_t above = 1;
   for (int i = 0; i < kDomainSize; ++i) {
-    samples[i] = at(kDomainStartNm + i);
+    const double nm = kDomainStartNm + i;
+    if (nm < m_wavelengthsNm.front() || nm > m_wavelengthsNm.back()) {
+      samples[i] = at(nm);
+      continue;
+    }
+    while (above + 1 < m_wavelengthsNm.size() && m_wavelengthsNm[above] <= nm) {
+      ++above;
+    }
+    samples[i] = between(m_wavelengthsNm, m_values, above - 1, nm);
   }
   return samples;
 }
