@@ -85,6 +85,7 @@ stage::DriveLimits limitsFrom(const nb::object& upper, const nb::object& power, 
 void bindStage(nb::module_& module) {
   bindWall(module);
   bindMatch(module);
+  bindConfidence(module);
   module.def("calibration_square_beta", &stage::calibrationSquareBeta, "width"_a, "height"_a, "distance"_a,
              "Light of a whole sphere over that of a lit square before a parallel chart: 4.18 for 1 x 1 at 1.");
   module.def("led_model", &stage::ledModel, "peak"_a, "width"_a,

@@ -23,14 +23,6 @@ namespace {
 using stage::WallCapture;
 using stage::WallSolution;
 
-Eigen::Matrix3d matrix3(nb::handle numbers, const char* what) {
-  const Doubles array = doubles(numbers);
-  if (array.ndim() != 2 || array.shape(0) != 3 || array.shape(1) != 3) {
-    throw nb::value_error((std::string(what) + ": must be 3 x 3").c_str());
-  }
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(array.data());
-}
-
 std::vector<std::string> namesOf(const nb::object& names, Eigen::Index count) {
   std::vector<std::string> result;
   if (names.is_none()) {
@@ -80,31 +72,8 @@ WallCapture captureFromSpectra(const nb::sequence& emitters, nb::handle camera, 
 
 WallSolution solve(const WallCapture& capture, const nb::object& heldPatch, const nb::object& patchWeights,
                    double largestCondition, const WallCapture* skins, double skinWeight) {
-  stage::WallOptions options;
-  options.largestCondition = largestCondition;
-  if (skins != nullptr) {
-    options.skins = *skins;
-    options.skinWeight = skinWeight;
-  }
-  const auto count = capture.target.cols();
-  if (!heldPatch.is_none()) {
-    const auto& names = capture.patchNames;
-    options.heldPatch =
-        nb::isinstance<nb::str>(heldPatch)
-            ? static_cast<int>(std::find(names.begin(), names.end(), nb::cast<std::string>(heldPatch)) - names.begin())
-            : nb::cast<int>(heldPatch);
-    if (options.heldPatch < 0 || options.heldPatch >= count) {
-      throw nb::value_error("held_patch: must be the name or the number of one of the patches");
-    }
-  }
-  if (!patchWeights.is_none()) {
-    const Doubles weights = doubles(patchWeights);
-    if (weights.ndim() != 1 || static_cast<Eigen::Index>(weights.size()) != count) {
-      throw nb::value_error("patch_weights: must be one a patch");
-    }
-    options.patchWeights = Eigen::Map<const Eigen::VectorXd>(weights.data(), count);
-  }
-  return stage::solveWall(capture, options);
+  return stage::solveWall(capture,
+                          wallOptionsFrom(capture, heldPatch, patchWeights, largestCondition, skins, skinWeight));
 }
 
 template <typename Binding, typename Owner, typename Member>
@@ -188,6 +157,49 @@ void bindSolution(nb::module_& module) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d matrix3(nb::handle numbers, const char* what) {
+  const Doubles array = doubles(numbers);
+  if (array.ndim() != 2 || array.shape(0) != 3 || array.shape(1) != 3) {
+    throw nb::value_error((std::string(what) + ": must be 3 x 3").c_str());
+  }
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(array.data());
+}
+
+int patchOf(const WallCapture& capture, const nb::object& patch, const char* what) {
+  if (patch.is_none()) {
+    return -1;
+  }
+  const auto& names = capture.patchNames;
+  const int number =
+      nb::isinstance<nb::str>(patch)
+          ? static_cast<int>(std::find(names.begin(), names.end(), nb::cast<std::string>(patch)) - names.begin())
+          : nb::cast<int>(patch);
+  if (number < 0 || number >= capture.target.cols()) {
+    throw nb::value_error((std::string(what) + ": must be the name or the number of one of the patches").c_str());
+  }
+  return number;
+}
+
+stage::WallOptions wallOptionsFrom(const WallCapture& capture, const nb::object& heldPatch,
+                                   const nb::object& patchWeights, double largestCondition, const WallCapture* skins,
+                                   double skinWeight) {
+  stage::WallOptions options;
+  options.largestCondition = largestCondition;
+  if (skins != nullptr) {
+    options.skins = *skins;
+    options.skinWeight = skinWeight;
+  }
+  options.heldPatch = patchOf(capture, heldPatch, "held_patch");
+  if (!patchWeights.is_none()) {
+    const Doubles weights = doubles(patchWeights);
+    if (weights.ndim() != 1 || static_cast<Eigen::Index>(weights.size()) != capture.target.cols()) {
+      throw nb::value_error("patch_weights: must be one a patch");
+    }
+    options.patchWeights = Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
+  }
+  return options;
+}
 
 void bindWall(nb::module_& module) {
   bindCapture(module);

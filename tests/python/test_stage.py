@@ -85,6 +85,83 @@ class Wall(unittest.TestCase):
             stage.linearity(drives, np.ones((3, 3)))
 
 
+def noisy(shot, seed, relative):
+    """The same capture with noise of its own."""
+    random = np.random.default_rng(seed)
+    again = lambda values: np.asarray(values) * (1 + relative * random.standard_normal(np.shape(values)))
+    return stage.WallCapture(primaries=again(shot.primaries), charts=[again(chart) for chart in shot.charts],
+                             target=again(shot.target), names=shot.names, beta=shot.beta,
+                             environment_white=again(shot.environment_white))
+
+
+class Confidence(unittest.TestCase):
+    def test_intervals_hold_the_truth(self):
+        shot = capture()
+        true_q = stage.solve(shot).Q
+        inside = []
+        for seed in range(40):
+            found = stage.intervals(noisy(shot, seed, 0.01), noise=0.01, samples=100, xyz_from_camera=np.eye(3))
+            low, high = found.Q
+            inside.append((low <= true_q) & (true_q <= high))
+        # 40 captures of 9 numbers each, which hang together within a capture.
+        self.assertGreater(np.mean(inside), 0.88)
+        self.assertLess(np.mean(inside), 0.99)
+
+    def test_what_intervals_say(self):
+        shot = noisy(capture(), 1, 0.01)
+        found = stage.intervals(shot, noise=(0.01, 1e-4), samples=50, white_patch=shot.names[18],
+                                xyz_from_camera=np.eye(3))
+        solved = stage.solve(shot, largest_condition=found.largest_condition)
+        for name in ("M", "N"):
+            low, high = getattr(found, name)
+            self.assertTrue(np.all(low <= high))
+            # The draws of N are freed of what noise does to it on the mean: its own solution may lie a little outside.
+            reach = 0 if name == "M" else high - low
+            self.assertTrue(np.all((low - reach <= getattr(solved, name)) & (getattr(solved, name) <= high + reach)), name)
+        self.assertEqual(found.bound_is_chosen, found.largest_condition < 100)
+        self.assertEqual(found.samples, 50)
+        for low, high in (found.mean_before, found.mean_after, found.max_after):
+            self.assertLessEqual(low, high)
+        self.assertLess(found.mean_after[1], found.mean_before[1])
+        # The environment's white from the chart's white patch, which is not as bright.
+        darker = stage.intervals(shot, noise=0.01, samples=50, white_patch=18, white_reflectance=1,
+                                 xyz_from_camera=np.eye(3))
+        self.assertGreater(darker.Q[0][1, 1], found.Q[1][1, 1])
+        with self.assertRaisesRegex(ValueError, "white_patch"):
+            stage.intervals(shot, noise=0.01, white_reflectance=1, xyz_from_camera=np.eye(3))
+        again = stage.intervals(shot, noise=(0.01, 1e-4), samples=50, white_patch=18, xyz_from_camera=np.eye(3))
+        np.testing.assert_array_equal(again.Q, found.Q)
+
+    def test_noise_is_seen_in_the_chart(self):
+        shot = noisy(capture(), 1, 0.02)
+        stated = stage.intervals(shot, noise=0.02, samples=100, xyz_from_camera=np.eye(3))
+        seen = stage.intervals(shot, samples=100, xyz_from_camera=np.eye(3))
+        widths = [np.subtract(*found.Q[::-1]).mean() for found in (stated, seen)]
+        self.assertLess(abs(np.log(widths[1] / widths[0])), 0.5)
+        with self.assertRaisesRegex(ValueError, "noise"):
+            stage.intervals(shot, reflectances=None, xyz_from_camera=np.eye(3))
+        with self.assertRaisesRegex(ValueError, "samples"):
+            stage.intervals(shot, samples=3, xyz_from_camera=np.eye(3))
+
+    def test_faults(self):
+        shot = capture()
+        self.assertEqual(stage.faults(shot), [])
+        charts = shot.charts
+        for what, fields, field in (
+            ("swapped captures", dict(charts=[charts[1], charts[0], charts[2]]), "charts|primaries"),
+            ("mirrored chart", dict(target=shot.target.reshape(4, 6, 3)[:, ::-1].reshape(-1, 3)), "target"),
+            ("one chart twice", dict(charts=[charts[0], charts[0], charts[2]]), "charts"),
+        ):
+            with self.subTest(what):
+                wrong = stage.WallCapture(**dict(
+                    dict(primaries=shot.primaries, charts=charts, target=shot.target, names=shot.names,
+                         environment_white=shot.environment_white, beta=shot.beta), **fields))
+                found = stage.faults(wrong)
+                self.assertTrue(found)
+                self.assertRegex(found[0].field, field)
+                self.assertIn(found[0].remedy, str(found[0]))
+
+
 class Fixture(unittest.TestCase):
     def test_exact_mixture(self):
         """A light that is a mixture of the emitters gets that mixture's drives by every method."""
