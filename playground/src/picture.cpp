@@ -2,6 +2,7 @@
 #include "picture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "metamer/spectral/srgb_curve.h"
@@ -40,10 +41,14 @@ void Picture::decode() {
 
 std::span<const std::uint8_t> Picture::through(const sip::HomogeneousMap& map) {
   map.apply(m_linear, m_result);
-  for (std::size_t at = 0; at < m_result.size(); ++at) {
-    if (at % 4 != 3) {
-      const float step = std::clamp(m_result[at], 0.0F, 1.0F) * static_cast<float>(kSteps) + 0.5F;
-      m_shown[at] = m_codeOfStep[static_cast<std::size_t>(step)];
+  for (std::size_t at = 0; at < m_result.size(); at += 4) {
+    std::array<std::int32_t, 4> steps;  // alpha too: a whole vector
+    for (std::size_t k = 0; k < 4; ++k) {
+      const float within = std::min(std::max(0.0F, m_result[at + k]), 1.0F);
+      steps[k] = static_cast<std::int32_t>(within * static_cast<float>(kSteps) + 0.5F);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      m_shown[at + k] = m_codeOfStep[static_cast<std::size_t>(steps[k])];
     }
   }
   return m_shown;

@@ -120,12 +120,15 @@ class Numbers(Folder):
                 file.write_text("metamer: 1\nspace: Rec.709\ninput: {illuminant: " + light + "}\noutput: {illuminant: HP1, "
                                 f"adaptation: {adaptation}}}\nbalanced: camera\n")
                 changed.append(file)
-        first, *times = json.loads(self.run_engine(self.recipe("sodium"), "--times", tolerance, *changed))
+        taken = json.loads(self.run_engine(self.recipe("sodium"), "--times", tolerance, *changed))
+        first, *times = taken["times"]
         moved = min(times[k] for k in range(len(times)) if k % 3 > 0)
         shot = min(times[k] for k in range(6, len(times), 3))
-        print(f"processor time, ms: first {first:.0f}, output or adaptation {moved:.0f}, light of the shot {shot:.0f}")
+        print(f"processor time, ms: first {first:.0f}, with the compiler beside it {taken['firstOfAll']:.0f}; "
+              f"output or adaptation {moved:.0f}, light of the shot {shot:.0f}")
         # docs/playground.md says half; who shares a core with others takes up to twice as long.
-        self.assertLess(first, 2000)
+        self.assertLess(first, 800)
+        self.assertLess(taken["firstOfAll"], 2000)
         self.assertLess(moved, 100)
         self.assertLess(shot, 200)
 

@@ -29,12 +29,11 @@ std::string atWavelength(const char* what, double wavelengthNm) {
 
 void checkWavelengths(const std::string& name, const std::vector<double>& wavelengths) {
   for (std::size_t i = 0; i < wavelengths.size(); ++i) {
-    const std::string value = numberText(wavelengths[i]);
     if (!std::isfinite(wavelengths[i]) || wavelengths[i] <= 0) {
-      throw InputError(name, "wavelength", value, "must be a finite number of nm above 0");
+      throw InputError(name, "wavelength", numberText(wavelengths[i]), "must be a finite number of nm above 0");
     }
     if (i > 0 && wavelengths[i] <= wavelengths[i - 1]) {
-      throw InputError(name, "wavelength", value,
+      throw InputError(name, "wavelength", numberText(wavelengths[i]),
                        "must be above the one before it, " + numberText(wavelengths[i - 1]) + " nm");
     }
   }

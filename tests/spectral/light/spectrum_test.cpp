@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 #include "spectral/fixture.h"
 
@@ -42,6 +43,24 @@ TEST(SpectrumTest, OnDomain) {
   EXPECT_DOUBLE_EQ(samples[11], 1);
   EXPECT_EQ(samples[390], 380);
   EXPECT_EQ(samples[391], 0);
+}
+
+TEST(SpectrumTest, SurfacesOnTheDomainAreTheirValuesAtEveryNanometre) {
+  const std::vector<std::vector<double>> wavelengths = {
+      {300, 379.5, 380, 380.25, 381, 600, 600.5, 900}, {380, 780}, {390.5, 391, 770}, {300, 310}, {790, 800}};
+  for (const auto& nm : wavelengths) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < nm.size(); ++i) {
+      values.push_back(0.1 + 0.3 * static_cast<double>(i % 3));
+    }
+    for (const Quantity quantity : {Quantity::Reflectance, Quantity::Sensitivity}) {
+      const Spectrum spectrum("s", quantity, nm, values);
+      const DomainSamples samples = spectrum.onDomain();
+      for (int i = 0; i < kDomainSize; ++i) {
+        ASSERT_EQ(samples[i], spectrum.at(kDomainStartNm + i)) << nm.front() << " nm on, " << i;
+      }
+    }
+  }
 }
 
 TEST(SpectrumTest, Shape) {
