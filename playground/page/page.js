@@ -37,10 +37,11 @@ function startWorker() {
   return made;
 }
 
-async function engineBytes() {
-  const packed = Uint8Array.from(atob(at('engine-code').textContent.trim()), letter => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
-  return new Response(stream).arrayBuffer();
+// Compiled while it is unpacked.
+async function engineModule() {
+  const packed = await fetch(`data:application/gzip;base64,${at('engine-code').textContent.trim()}`);
+  const plain = packed.body.pipeThrough(new DecompressionStream('gzip'));
+  return WebAssembly.compileStreaming(new Response(plain, {headers: {'Content-Type': 'application/wasm'}}));
 }
 
 // ---- the recipe ----
@@ -202,14 +203,14 @@ function begun(name, usual, entries) {
 
 async function begin() {
   worker = startWorker();
-  const wasm = await engineBytes();
-  const {names} = await ask('begin', {wasm}, [wasm]);
+  const photograph = fetch(at('photograph').src).then(given => given.blob()).then(blob => createImageBitmap(blob));
+  const {names} = await ask('begin', {module: await engineModule()});
   fill(controls.in, names.illuminants, begun('in', 'D65', names.illuminants));
   fill(controls.out, names.illuminants, begun('out', 'HP1', names.illuminants));
   fill(controls.gel, names.filters, begun('gel', '', names.filters));
   for (const name of ['density', 'adaptation']) controls[name].value = begun(name, controls[name].value);
   fill(at('space'), names.spaces.map(name => ({name})), 'ACEScct');
-  await takePicture(await (await fetch(at('photograph').src)).blob(), 'The photograph that comes with the page');
+  await takePicture(await photograph, 'The photograph that comes with the page');
   for (const control of Object.values(controls)) control.addEventListener('input', change);
   at('split').addEventListener('input', split);
   at('file').addEventListener('change', event => event.target.files[0] && takeFile(event.target.files[0]));

@@ -1,5 +1,5 @@
 'use strict';
-// The engine, apart from the page so that the page never waits. Begins with {wasm}, then takes pictures, recipes and orders
+// The engine, apart from the page so that the page never waits. Begins with {module}, then takes pictures, recipes and orders
 // for cubes; answers {kind, id, ...}, or {kind: 'error', text}.
 let engine = null;
 
@@ -20,8 +20,13 @@ function withText(text, call) {
 }
 
 const doors = {
-  async begin({wasm}) {
-    engine = await metamerEngine({wasmBinary: wasm});
+  async begin({module}) {
+    engine = await new Promise((resolve, reject) => metamerEngine({
+      instantiateWasm(imports, receive) {
+        WebAssembly.instantiate(module, imports).then(instance => receive(instance, module)).catch(reject);
+        return {};
+      },
+    }).then(resolve, reject));
     return {names: withText('/data', engine._metamer_open)};
   },
   picture({pixels}) {
