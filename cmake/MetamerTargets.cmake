@@ -17,6 +17,10 @@ else()
     # GCC 12 reports overlapping copies inside std::string that cannot happen (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 endif()
+# Nor on its caches: Eigen adds long sums up in parts as large as the first cache has room for. These are the sizes of
+# Intel's newer processors.
+target_compile_definitions(metamer_build_flags INTERFACE EIGEN_NO_CPUID EIGEN_DEFAULT_L1_CACHE_SIZE=49152
+  EIGEN_DEFAULT_L2_CACHE_SIZE=2097152 EIGEN_DEFAULT_L3_CACHE_SIZE=33554432)
 if(METAMER_SANITIZERS)
   target_compile_options(metamer_build_flags INTERFACE -fsanitize=${METAMER_SANITIZERS} -fno-omit-frame-pointer
     -fno-sanitize-recover=all
