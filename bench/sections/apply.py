@@ -54,6 +54,8 @@ def copier():
                                  capture_output=True, text=True).stdout.strip()
         return f"OpenImageIO {version}", [python, "-c", COPY, str(THREADS), str(FRAMES)]
     tool = shutil.which("oiiotool")
+    if tool is None:
+        sys.exit("apply: nothing to copy with: install openimageio-tools, or name a Python with openimageio in METAMER_OIIO_PYTHON")
     version = re.search(r"[\d.]+", subprocess.run([tool, "--version"], check=True, capture_output=True, text=True).stdout)
     return f"oiiotool {version[0]}", [tool, "--threads", str(THREADS), "--frames", f"0-{FRAMES - 1}", "in.%04d.exr", "-o",
                                       "copy.%04d.exr"]
