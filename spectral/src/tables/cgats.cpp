@@ -77,8 +77,8 @@ std::vector<CgatsTable> tablesOf(const TableText& text) {
       reading = nullptr;
     } else if (word == "END_DATA") {
       reading = nullptr;
-      // The fields of a table hold for those behind it, until others are given.
-      tables.push_back({tables.back().fields, {}, StatedScale::NotStated, {}});
+      // The fields of a table, and their bands, hold for those behind it, until others are given.
+      tables.push_back({tables.back().fields, {}, StatedScale::NotStated, tables.back().bands});
     } else if (reading != nullptr) {
       addTokens(line, *reading);
     } else {

@@ -107,6 +107,10 @@ TEST(LayoutsTest, BandsOfCgatsLieWhereTheHeaderSays) {
   };
   EXPECT_NEAR(read(table("390"))[0].wavelengthsNm()[1], 383.0 + 1.0 / 3, 1e-9);
   EXPECT_NEAR(read(table("390"))[0].wavelengthsNm()[2], 386.0 + 2.0 / 3, 1e-9);
+  // As the fields do, for the tables behind.
+  const std::vector<Spectrum> two = read(table("390") + "BEGIN_DATA\n5 6 7 8\nEND_DATA\n");
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_EQ(two[1].wavelengthsNm(), two[0].wavelengthsNm());
   // A header of other bands than the fields': the fields.
   EXPECT_EQ(read(table("420"))[0].wavelengthsNm(), (Values{380, 383, 387, 390}));
 }
