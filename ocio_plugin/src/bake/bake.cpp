@@ -50,8 +50,10 @@ class Baking {
   }
   void certify() {
     certify(PixelProcessor(m_operators.group));
-    m_judged.tell(kCertifiedShare);
+    tellCertified();
   }
+  /// Whoever waits is told on the caller's own thread.
+  void tellCertified() const { m_judged.tell(kCertifiedShare); }
 
   /// The same of these operators on a graphics card.
   void certifyOnCards(const OCIO::ConstGroupTransformRcPtr& operators) {
@@ -139,7 +141,9 @@ BakedText bakeText(const sip::Recipe& recipe, const spectral::DataLibrary& libra
   Baking baking(recipe, library, format, options);
   Certificate& certificate = baking.certificate();
   certificate.format = format.name;
-  inParallel([&] { baking.certify(); }, [&] { baking.certifyOnCards(shaderOperators(baking.group())); });
+  inParallel([&] { baking.certify(PixelProcessor(baking.group())); },
+             [&] { baking.certifyOnCards(shaderOperators(baking.group())); });
+  baking.tellCertified();
   std::string text = textOf(baking, format, options);
   certificate.sha256 = sha256(text);
   return {std::move(text), std::move(certificate)};

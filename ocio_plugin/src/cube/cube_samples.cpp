@@ -30,6 +30,7 @@ constexpr double kNoiseReach = 0.006;
 constexpr double kNoiseGrey = 0.005;
 /// Chromaticities, or colours of noise, a task.
 constexpr int kBlock = 250;
+static_assert(kChromaticityCount % kBlock == 0 && kNoiseCount % kBlock == 0);
 /// Tasks that put the samples in order.
 constexpr int kParts = 8;
 /// Step of the signal to see its slope by, and of light to see CIEDE2000's.
