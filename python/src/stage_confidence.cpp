@@ -11,6 +11,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
+#include "metamer/spectral/input_error.h"
 #include "metamer/stage/capture_faults.h"
 #include "metamer/stage/skin_priority.h"
 #include "metamer/stage/wall_intervals.h"
@@ -133,7 +134,7 @@ void bindConfidence(nb::module_& module) {
       .def_ro("value", &CaptureFault::value, "The patch, or the numbers; may be empty.")
       .def_ro("remedy", &CaptureFault::remedy, "What is wrong, by how much, and what to do.")
       .def("__str__", [](const CaptureFault& self) {
-        return self.field + (self.value.empty() ? "" : " '" + self.value + "'") + ": " + self.remedy;
+        return std::string(spectral::InputError("", self.field, self.value, self.remedy).what());
       });
   bindIntervals(module);
   module.def(

@@ -90,14 +90,6 @@ DeviceHost::Handle CudaCardHost::buffer(std::size_t bytes, const void* data) con
   return reinterpret_cast<Handle>(made);
 }
 
-DeviceHost::Handle CudaCardHost::part(Handle buffer, std::size_t begin, std::size_t /*bytes*/) const {
-  return static_cast<unsigned char*>(buffer) + begin;
-}
-
-DeviceHost::Handle CudaCardHost::imageData(Handle buffer, std::size_t firstPixel) const {
-  return static_cast<unsigned char*>(buffer) + firstPixel;
-}
-
 void CudaCardHost::read(Handle buffer, std::size_t bytes, void* data, int queue) const {
   require(m_driver->fromCard(data, addressOf(buffer), bytes, m_streams[queue]), "cuMemcpyDtoHAsync");
   wait(queue);

@@ -11,7 +11,7 @@ namespace bare_host {
 
 /// A host with memory on a CUDA card, in the primary context, as hosts have it. Its driver is the one that the plug-in
 /// loads: the system's, or what METAMER_OFX_CUDA names.
-class CudaCardHost final : public DeviceHost {
+class CudaCardHost final : public AddressHost {
  public:
   /// @throws std::runtime_error in a line where there is no driver or no card
   CudaCardHost();
@@ -23,12 +23,8 @@ class CudaCardHost final : public DeviceHost {
   const DeviceWords& words() const override { return m_words; }
   Handle queue(int index) const override { return m_streams[index]; }
   Handle buffer(std::size_t bytes, const void* data) const override;
-  Handle part(Handle buffer, std::size_t begin, std::size_t bytes) const override;
-  Handle imageData(Handle buffer, std::size_t firstPixel) const override;
   void read(Handle buffer, std::size_t bytes, void* data, int queue) const override;
   void release(Handle buffer) const override;
-  void releasePart(Handle /*part*/) const override {}
-  std::size_t partAlignment() const override { return 4; }
   /// A card's queue cannot be held without a kernel of one's own. @throws std::logic_error
   Handle hold(int queue) const override;
   void signal(Handle event) const override;

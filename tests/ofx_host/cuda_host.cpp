@@ -33,14 +33,6 @@ DeviceHost::Handle CudaHost::buffer(std::size_t bytes, const void* data) const {
   return made;
 }
 
-DeviceHost::Handle CudaHost::part(Handle buffer, std::size_t begin, std::size_t /*bytes*/) const {
-  return static_cast<unsigned char*>(buffer) + begin;
-}
-
-DeviceHost::Handle CudaHost::imageData(Handle buffer, std::size_t firstPixel) const {
-  return static_cast<unsigned char*>(buffer) + firstPixel;
-}
-
 void CudaHost::read(Handle buffer, std::size_t bytes, void* data, int queue) const {
   m_driver.wait(m_streams[queue]);
   std::memcpy(data, buffer, bytes);

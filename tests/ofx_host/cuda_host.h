@@ -8,7 +8,7 @@
 namespace bare_host {
 
 /// A host with CUDA memory, on the tests' own driver. No thread has a context unless a test says so.
-class CudaHost final : public DeviceHost {
+class CudaHost final : public AddressHost {
  public:
   CudaHost();
   ~CudaHost() override;
@@ -20,12 +20,8 @@ class CudaHost final : public DeviceHost {
   Handle hold(int queue) const override;
   void signal(Handle event) const override;
   Handle buffer(std::size_t bytes, const void* data) const override;
-  Handle part(Handle buffer, std::size_t begin, std::size_t bytes) const override;
-  Handle imageData(Handle buffer, std::size_t firstPixel) const override;
   void read(Handle buffer, std::size_t bytes, void* data, int queue) const override;
   void release(Handle buffer) const override;
-  void releasePart(Handle /*part*/) const override {}
-  std::size_t partAlignment() const override { return 4; }
 
   CudaDriver& driver() const { return m_driver; }
   void* context() const { return m_context; }

@@ -53,6 +53,17 @@ class DeviceHost {
   std::string m_reason;
 };
 
+/// A device whose buffers are addresses, as CUDA's.
+class AddressHost : public DeviceHost {
+ public:
+  Handle part(Handle buffer, std::size_t begin, std::size_t /*bytes*/) const final { return imageData(buffer, begin); }
+  Handle imageData(Handle buffer, std::size_t firstPixel) const final {
+    return static_cast<unsigned char*>(buffer) + firstPixel;
+  }
+  void releasePart(Handle /*part*/) const final {}
+  std::size_t partAlignment() const final { return 4; }
+};
+
 /// Of the kind that the program is built for.
 std::unique_ptr<DeviceHost> makeDeviceHost();
 
