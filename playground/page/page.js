@@ -37,27 +37,24 @@ function startWorker() {
   return made;
 }
 
-// Compiled while it is unpacked.
-async function engineModule() {
-  const packed = await fetch(`data:application/gzip;base64,${at('engine-code').textContent.trim()}`);
-  const plain = packed.body.pipeThrough(new DecompressionStream('gzip'));
-  return WebAssembly.compileStreaming(new Response(plain, {headers: {'Content-Type': 'application/wasm'}}));
-}
-
 // ---- the recipe ----
 function quoted(text) {
   return JSON.stringify(text);
 }
 
-function recipe() {
-  const gel = controls.gel.value === '' ? '' : `filters: [{name: ${quoted(controls.gel.value)}, density: ${controls.density.value}}], `;
+function recipeOf(chosen) {
+  const gel = chosen.gel === '' ? '' : `filters: [{name: ${quoted(chosen.gel)}, density: ${chosen.density}}], `;
   return `metamer: 1
 name: playground
 space: Rec.709
-input: {illuminant: ${quoted(controls.in.value)}}
-output: {illuminant: ${quoted(controls.out.value)}, ${gel}adaptation: ${controls.adaptation.value}}
-balanced: ${controls.balanced.value}
+input: {illuminant: ${quoted(chosen.in)}}
+output: {illuminant: ${quoted(chosen.out)}, ${gel}adaptation: ${chosen.adaptation}}
+balanced: ${chosen.balanced}
 `;
+}
+
+function recipe() {
+  return recipeOf(Object.fromEntries(Object.entries(controls).map(([name, control]) => [name, control.value])));
 }
 
 function nameOfOutput() {
@@ -82,17 +79,17 @@ function tell(findings) {
 
 async function show(tolerance) {
   const began = performance.now(), {width, height} = after;
-  const {findings} = await ask('recipe', {recipe: recipe()});
-  const {pixels} = await ask('show', {tolerance, length: pixelBytes});
+  const {pixels} = await ask('show', {recipe: recipe(), tolerance, length: pixelBytes});
   // Another picture came, and will be shown by the change that it brings.
   if (after.width !== width || after.height !== height) return;
   after.getContext('2d').putImageData(new ImageData(new Uint8ClampedArray(pixels.buffer), width, height), 0, 0);
-  tell(findings);
-  const milliseconds = performance.now() - began;
-  document.documentElement.dataset.milliseconds = milliseconds.toFixed(1);
-  document.documentElement.dataset.tolerance = tolerance;
+  const now = performance.now(), {dataset} = document.documentElement;
+  dataset.first ??= now.toFixed(0);
+  dataset.milliseconds = (now - began).toFixed(1);
+  dataset.tolerance = tolerance;
+  dataset.state = 'shown';
   say('');
-  at('timing').textContent = `Shown in ${Math.round(milliseconds)} ms.`;
+  at('timing').textContent = `Shown in ${Math.round(now - began)} ms.`;
 }
 
 async function change() {
@@ -106,6 +103,7 @@ async function change() {
     while (isStale) {
       isStale = false;
       await show(whileMoving);
+      if (!isStale) tell((await ask('findings')).findings);
     }
     document.documentElement.dataset.state = 'ready';
   } catch (error) {
@@ -196,21 +194,29 @@ function fill(select, entries, chosen) {
 }
 
 // ---- what the page begins with: where it stands within a report, the report's recipe ----
-function begun(name, usual, entries) {
+function begun(name, otherwise, entries) {
   const said = document.documentElement.dataset[`start${name[0].toUpperCase()}${name.slice(1)}`];
-  return said === undefined || (entries && !entries.some(entry => entry.name === said)) ? usual : said;
+  return said === undefined || (entries && !entries.some(entry => entry.name === said)) ? otherwise : said;
 }
 
+const usual = {in: 'D65', out: 'HP1', gel: ''};
+
+// The engine begins with the recipe while the page is still busy with the photograph and the names.
 async function begin() {
   worker = startWorker();
-  const photograph = fetch(at('photograph').src).then(given => given.blob()).then(blob => createImageBitmap(blob));
-  const {names} = await ask('begin', {module: await engineModule()});
-  fill(controls.in, names.illuminants, begun('in', 'D65', names.illuminants));
-  fill(controls.out, names.illuminants, begun('out', 'HP1', names.illuminants));
-  fill(controls.gel, names.filters, begun('gel', '', names.filters));
+  const photograph = fetch(at('photograph').src).then(given => given.blob());
+  const opened = ask('begin', {packed: at('engine-code').textContent.trim()});
   for (const name of ['density', 'adaptation']) controls[name].value = begun(name, controls[name].value);
-  fill(at('space'), names.spaces.map(name => ({name})), 'ACEScct');
+  const chosen = {density: controls.density.value, adaptation: controls.adaptation.value, balanced: controls.balanced.value};
+  for (const name in usual) chosen[name] = begun(name, usual[name]);
+  // Where a report's names are none of the page's, the usual ones are taken below.
+  ask('show', {recipe: recipeOf(chosen), tolerance: whileMoving}).catch(() => {});
   await takePicture(await photograph, 'The photograph that comes with the page');
+  const {names} = await opened;
+  fill(controls.in, names.illuminants, begun('in', usual.in, names.illuminants));
+  fill(controls.out, names.illuminants, begun('out', usual.out, names.illuminants));
+  fill(controls.gel, names.filters, begun('gel', usual.gel, names.filters));
+  fill(at('space'), names.spaces.map(name => ({name})), 'ACEScct');
   for (const control of Object.values(controls)) control.addEventListener('input', change);
   at('split').addEventListener('input', split);
   at('file').addEventListener('change', event => event.target.files[0] && takeFile(event.target.files[0]));
@@ -223,7 +229,6 @@ async function begin() {
   });
   split();
   await change();
-  document.documentElement.dataset.first = performance.now().toFixed(0);
 }
 
 begin().catch(error => say(`This page needs a browser of 2023 or newer, with WebAssembly: ${error.message}`, true));

@@ -1,29 +1,43 @@
 'use strict';
-// The engine, apart from the page so that the page never waits. Begins with {module}, then takes pictures, recipes and orders
-// for cubes; answers {kind, id, ...}, or {kind: 'error', text}.
-let engine = null;
+// The engine, apart from the page so that the page never waits. Begins with {packed}, the engine in gzip and base64, then takes pictures, recipes and orders
+// for cubes, one after another; answers {kind, id, ...}, or {kind: 'error', text}.
+let engine = null, recipeSet = null;
 
-function textAt(place) {
-  return JSON.parse(engine.UTF8ToString(place));
+function bytesOf(base64) {
+  return Uint8Array.fromBase64 ? Uint8Array.fromBase64(base64) : Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
+}
+
+function checked(place) {
+  const answer = JSON.parse(engine.UTF8ToString(place));
+  if (answer.error !== undefined) throw new Error(answer.error);
+  return answer;
 }
 
 function withText(text, call) {
   const size = engine.lengthBytesUTF8(text) + 1, place = engine._malloc(size);
   engine.stringToUTF8(text, place, size);
   try {
-    const answer = textAt(call(place));
-    if (answer.error !== undefined) throw new Error(answer.error);
-    return answer;
+    return checked(call(place));
   } finally {
     engine._free(place);
   }
 }
 
+function setRecipe(recipe) {
+  if (recipe === recipeSet) return;
+  recipeSet = null;
+  withText(recipe, engine._metamer_set);
+  recipeSet = recipe;
+}
+
 const doors = {
-  async begin({module}) {
+  async begin({packed}) {
     engine = await new Promise((resolve, reject) => metamerEngine({
       instantiateWasm(imports, receive) {
-        WebAssembly.instantiate(module, imports).then(instance => receive(instance, module)).catch(reject);
+        // Compiled while it is unpacked.
+        const plain = new Response(bytesOf(packed)).body.pipeThrough(new DecompressionStream('gzip'));
+        WebAssembly.instantiateStreaming(new Response(plain, {headers: {'Content-Type': 'application/wasm'}}), imports)
+            .then(({instance, module}) => receive(instance, module)).catch(reject);
         return {};
       },
     }).then(resolve, reject));
@@ -35,20 +49,21 @@ const doors = {
     engine._metamer_decode();
     return {length: pixels.length};
   },
-  recipe({recipe}) {
-    return {findings: withText(recipe, engine._metamer_set)};
+  // Without a length: what the picture will need, before it is there.
+  show({recipe, tolerance, length}) {
+    setRecipe(recipe);
+    const answer = checked(engine._metamer_show(tolerance));
+    return length === undefined ? {} : {pixels: engine.HEAPU8.slice(answer.at, answer.at + length)};
   },
-  show({tolerance, length}) {
-    const answer = textAt(engine._metamer_show(tolerance));
-    if (answer.error !== undefined) throw new Error(answer.error);
-    return {pixels: engine.HEAPU8.slice(answer.at, answer.at + length), tolerance};
+  findings() {
+    return {findings: checked(engine._metamer_findings())};
   },
   cube({space, size}) {
     return withText(space, place => engine._metamer_cube(place, size));
   },
 };
 
-onmessage = async ({data}) => {
+async function serve(data) {
   const began = performance.now();
   try {
     const answer = await doors[data.kind](data);
@@ -57,4 +72,7 @@ onmessage = async ({data}) => {
   } catch (error) {
     postMessage({kind: 'error', id: data.id, text: error.message || String(error)});
   }
-};
+}
+
+let turn = Promise.resolve();
+onmessage = ({data}) => turn = turn.then(() => serve(data));

@@ -45,12 +45,17 @@ EMSCRIPTEN_KEEPALIVE const char* metamer_open(const char* tables) {
   });
 }
 
-/// JSON: findingsOf().
+/// JSON: empty.
 EMSCRIPTEN_KEEPALIVE const char* metamer_set(const char* recipe) {
   return answer([&] {
     session->setRecipe(recipe);
-    return findingsOf(*session);
+    return json::object();
   });
+}
+
+/// JSON: findingsOf().
+EMSCRIPTEN_KEEPALIVE const char* metamer_findings() {
+  return answer([] { return findingsOf(*session); });
 }
 
 /// Room for the sRGB codes (red, green, blue, alpha) of a picture; metamer_decode() takes them over.
@@ -61,14 +66,13 @@ EMSCRIPTEN_KEEPALIVE void metamer_decode() {
   picture.decode();
 }
 
-/// The picture through the recipe, of linear Rec.709. JSON: `at`, where its codes lie, and `solves`.
+/// The picture through the recipe, of linear Rec.709; before there is one, what showing it will need. JSON: `at`, where
+/// its codes lie, and `solves`.
 EMSCRIPTEN_KEEPALIVE const char* metamer_show(double tolerance) {
   return answer([&] {
     const auto& map = session->map(tolerance);
     const auto shown = picture.through(map);
-    return json{{"at", reinterpret_cast<std::uintptr_t>(shown.data())},
-                {"solves", map.statistics.solves},
-                {"largestError", map.statistics.largestError}};
+    return json{{"at", reinterpret_cast<std::uintptr_t>(shown.data())}, {"solves", map.statistics.solves}};
   });
 }
 

@@ -9,8 +9,7 @@
 namespace metamer::playground {
 namespace {
 
-/// CIEDE2000 that hardly any two colours differ by. Who allows as much asks for a draft: patches are not cut, so half
-/// of the spectra, those that only say where to cut, need not be solved.
+/// CIEDE2000 that hardly any two colours differ by. Who allows as much asks for a draft.
 constexpr double kDraft = 100.0;
 
 }  // namespace
@@ -49,8 +48,9 @@ sip::SpectralTransform Session::transformIn(const spectral::RgbSpace& space) {
 const sip::HomogeneousMap& Session::map(double tolerance) {
   Current& now = current();
   if (!now.map || now.tolerance != tolerance) {
-    const int fewerLevels = tolerance >= kDraft ? sip::HomogeneousMap::kMaximumDepth : 0;
-    now.map = buildHomogeneousMap(now.transform, tolerance, sip::inOrder, &m_memory, fewerLevels);
+    const bool isDraft = tolerance >= kDraft;
+    now.map = buildHomogeneousMap(now.transform, tolerance, sip::inOrder, isDraft ? &m_draftMemory : &m_memory,
+                                  isDraft ? sip::HomogeneousMap::kMaximumDepth : 0);
     now.tolerance = tolerance;
   }
   return *now.map;

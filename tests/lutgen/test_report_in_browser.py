@@ -116,7 +116,7 @@ class Browser(LutgenTest):
         for width in (390, 1280):
             page.resize(width, 900)
             page.open((self.folder / "live.html").as_uri())
-            page.wait("document.querySelector('.live')?.contentDocument?.documentElement?.dataset.first !== undefined")
+            page.wait("document.querySelector('.live')?.contentDocument?.documentElement?.dataset.state in {ready: 1, rest: 1}")
             self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), width)
         inner = "document.querySelector('.live').contentDocument"
         self.assertEqual(page.evaluate(f"['in', 'out', 'adaptation'].map(id => {inner}.getElementById(id).value)"), ["A", "FL11", "0.5"])

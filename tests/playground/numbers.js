@@ -29,7 +29,7 @@ async function main() {
     return said;
   };
   answer(engine._metamer_open(given('/data')));
-  const findings = answer(engine._metamer_set(given(fs.readFileSync(recipeFile, 'utf8'))));
+  answer(engine._metamer_set(given(fs.readFileSync(recipeFile, 'utf8'))));
   if (order[0] === '--cube') {
     process.stdout.write(answer(engine._metamer_cube(given(order[1]), Number(order[2]))).text);
     return;
@@ -54,7 +54,7 @@ async function main() {
   engine.HEAPU8.set(pixels, at);
   answer(engine._metamer_apply(at, pixels.length / 16, Number(order[1])));
   fs.writeFileSync(order[0], engine.HEAPU8.subarray(at, at + pixels.length));
-  console.log(JSON.stringify(findings));
+  console.log(JSON.stringify(answer(engine._metamer_findings())));
 }
 
 main().catch(error => {

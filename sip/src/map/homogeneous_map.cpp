@@ -30,23 +30,26 @@ constexpr int kEdgeCheckLevels = 3;
 /// parts cannot change what comes out.
 class Part {
  public:
-  Part(const MapSource& source, int face, int firstColumn, int firstRow)
-      : m_source(source), m_face(face), m_firstColumn(firstColumn), m_firstRow(firstRow) {
+  Part(const MapSource& source, int face, int firstColumn, int firstRow, int side)
+      : m_source(source), m_face(face), m_firstColumn(firstColumn), m_firstRow(firstRow), m_side(side) {
     if (face == Map::kFrontFace) {
-      m_fine.emplace(firstColumn * kFinePerRoot, firstRow * kFinePerRoot, kSide * kFinePerRoot);
+      m_fine.emplace(firstColumn * kFinePerRoot, firstRow * kFinePerRoot, side * kFinePerRoot);
     }
   }
 
-  /// Small, as most of a map's work may lie in a few root cells.
-  static constexpr int kSide = 2;
+  /// Root cells along a part. Few, as most of a map's work may lie in a few of them; of a draft all, as neighbouring
+  /// parts solve the nodes between them twice.
+  static int sideOf(const MapSource& source, int face) {
+    return source.isDraft() ? 1 << Map::kRootBits[static_cast<std::size_t>(face)] : 2;
+  }
 
   /// @param memory  of this part; may be null
   void build(PartMemory* memory) {
     m_nodes = std::make_unique<FaceNodes>(m_source, m_face, memory);
     constexpr int kRootSteps = 1 << (Map::kMaximumDepth + 1);
     std::vector<std::size_t> open;  // cells that are not judged yet, all of one level
-    for (int j = m_firstRow; j < m_firstRow + kSide; ++j) {
-      for (int i = m_firstColumn; i < m_firstColumn + kSide; ++i) {
+    for (int j = m_firstRow; j < m_firstRow + m_side; ++j) {
+      for (int i = m_firstColumn; i < m_firstColumn + m_side; ++i) {
         open.push_back(m_cells.size());
         m_cells.push_back({i * kRootSteps, j * kRootSteps, kRootSteps});
       }
@@ -81,8 +84,8 @@ class Part {
     const auto firstPatch = static_cast<std::uint32_t>(map.patches.size());
     const auto face = static_cast<std::size_t>(m_face);
     auto own = m_roots.begin();
-    for (int row = m_firstRow; row < m_firstRow + kSide; ++row) {
-      for (int column = m_firstColumn; column < m_firstColumn + kSide; ++column) {
+    for (int row = m_firstRow; row < m_firstRow + m_side; ++row) {
+      for (int column = m_firstColumn; column < m_firstColumn + m_side; ++column) {
         const auto root = static_cast<std::uint32_t>((row << Map::kRootBits[face]) + column);
         map.roots[map.faceOffset[face] + root] = *own++ + (firstIndex << Map::kDepthBits);
       }
@@ -181,7 +184,9 @@ class Part {
       const auto [u, v, side] = std::tuple(cell.u, cell.v, cell.side);
       cell.corners = {m_nodes->at(u, v), m_nodes->at(u + side, v), m_nodes->at(u, v + side),
                       m_nodes->at(u + side, v + side)};
-      middles.push_back(m_nodes->at(u + side / 2, v + side / 2));
+      if (!m_source.isDraft()) {
+        middles.push_back(m_nodes->at(u + side / 2, v + side / 2));
+      }
     }
     m_nodes->solve();
     std::vector<std::array<const FaceNode*, 4>> edges;
@@ -191,6 +196,9 @@ class Part {
         m_nodes->addSlopes(*corner);
       }
       cell.patch = patchOver(cell);
+      if (m_source.isDraft()) {
+        continue;
+      }
       cell.excess = excess(cell.patch, *middles[k], 0.5, 0.5);
       if (m_face == Map::kFrontFace) {
         cell.excess = std::max(cell.excess, excessAtKnown(cell));
@@ -200,6 +208,9 @@ class Part {
         edges.push_back({m_nodes->at(u + side / 2, v), m_nodes->at(u, v + side / 2),
                          m_nodes->at(u + side, v + side / 2), m_nodes->at(u + side / 2, v + side)});
       }
+    }
+    if (m_source.isDraft()) {
+      return {};
     }
     m_nodes->solve();
     std::vector<std::size_t> parts;
@@ -280,6 +291,7 @@ class Part {
   int m_face;
   int m_firstColumn;
   int m_firstRow;
+  int m_side;  ///< root cells
   std::vector<std::uint32_t> m_roots;
   std::vector<std::uint32_t> m_patchIndex;
   std::vector<Map::Patch> m_patches;
@@ -311,11 +323,12 @@ HomogeneousMap buildHomogeneousMap(const SpectralTransform& transform, double to
   std::uint32_t rootCount = 0;
   for (int face = 0; face < Map::kFaceCount; ++face) {
     const int side = 1 << Map::kRootBits[static_cast<std::size_t>(face)];
+    const int partSide = Part::sideOf(source, face);
     map.faceOffset[static_cast<std::size_t>(face)] = rootCount;
     rootCount += static_cast<std::uint32_t>(side * side);
-    for (int row = 0; row < side; row += Part::kSide) {
-      for (int column = 0; column < side; column += Part::kSide) {
-        parts.emplace_back(source, face, column, row);
+    for (int row = 0; row < side; row += partSide) {
+      for (int column = 0; column < side; column += partSide) {
+        parts.emplace_back(source, face, column, row, partSide);
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "map/known_points.h"
+#include "metamer/sip/homogeneous_map.h"
 #include "metamer/sip/spectral_transform.h"
 #include "transform/perceptual_metric.h"
 
@@ -14,6 +15,9 @@ namespace metamer::sip {
 struct MapSource {
   /// @param tolerance, fewerLevels  as buildHomogeneousMap() takes them
   MapSource(const SpectralTransform& transform, double tolerance, int fewerLevels);
+
+  /// No patch may be cut, so none is judged.
+  bool isDraft() const { return fewerLevels == HomogeneousMap::kMaximumDepth; }
 
   const SpectralTransform& transform;
   double tolerance;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -361,6 +362,33 @@ TEST(HomogeneousMapTest, FewerLevelsCostLittleOnSurfacesAndSaveMuch) {
   std::printf("[ map ] three levels fewer: %d of %d solves, surfaces p99 %.4f of a pixel\n", coarse.statistics.solves,
               whole.statistics.solves, p99);
   EXPECT_LE(p99, 0.01);
+}
+
+TEST(HomogeneousMapTest, ADraftSolvesItsCornersAndIsExactThere) {
+  const SpectralTransform transform(naturalSpecOf("FL11", "D50"), 41);
+  const HomogeneousMap draft = buildHomogeneousMap(transform, 100.0, inOrder, nullptr, HomogeneousMap::kMaximumDepth);
+  // Of the front face 16 by 16 cells, of the other five 4 by 4: each corner once.
+  EXPECT_EQ(draft.statistics.solves, 17 * 17 + 5 * 5 * 5);
+  EXPECT_EQ(draft.statistics.patches, 16 * 16 + 5 * 4 * 4);
+  const Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>> cubeFromRgb(draft.cubeFromRgb.data());
+  const Eigen::Matrix3d rgbFromCube = cubeFromRgb.cast<double>().inverse();
+  for (int face = 0; face < HomogeneousMap::kFaceCount; ++face) {
+    for (int i = 0; i <= 4; ++i) {
+      for (int j = 0; j <= 4; ++j) {
+        Eigen::Vector3d cube;
+        cube[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
+        cube[(face / 2 + 1) % 3] = 0.5 * i - 1.0;
+        cube[(face / 2 + 2) % 3] = 0.5 * j - 1.0;
+        const Eigen::Vector3f rgb = (rgbFromCube * cube).cast<float>();
+        std::array<float, 4> pixel = {rgb.x(), rgb.y(), rgb.z(), 1.0F};
+        draft.apply(pixel);
+        const Eigen::Vector3d truth = transform.apply(rgb.cast<double>());
+        const Eigen::Vector3d found = Eigen::Map<const Eigen::Vector3f>(pixel.data()).cast<double>();
+        // Floats, and corners of a patch that they lie beside by as much.
+        EXPECT_LE((found - truth).norm(), 1e-4 * truth.norm()) << "face " << face << ", " << i << ", " << j;
+      }
+    }
+  }
 }
 
 TEST(HomogeneousMapTest, MemoryChangesNoMap) {
