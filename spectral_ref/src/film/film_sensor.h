@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "film/gathered_responses.h"
+#include "metamer/spectral/vector_lanes.h"
 #include "metamer/spectral_ref/film.h"
 #include "wavelengths/lanes.h"
 
@@ -21,8 +22,8 @@ class FilmSensor {
   /// Adds one path's radiance to a pixel, its responses by way of `gathered`. Not two threads on one pixel.
   /// A value that is no number or beyond what the film's sums hold is left out and counted.
   template <int C>
-  void add(Film& film, GatheredResponses& gathered, std::size_t pixel, std::size_t replicate,
-           const WavelengthSet<C>& wavelengths, const Lanes<C>& radiance) {
+  METAMER_ALWAYS_INLINE void add(Film& film, GatheredResponses& gathered, std::size_t pixel, std::size_t replicate,
+                                 const WavelengthSet<C>& wavelengths, const Lanes<C>& radiance) {
     const Lanes<C> values = radiance * wavelengths.weight;
     // One test for all: a lane that is no number or out of range shows in the sum of squares.
     const float size = values.square().sum();

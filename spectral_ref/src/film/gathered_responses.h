@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "metamer/spectral/vector_lanes.h"
 #include "metamer/spectral_ref/film.h"
 
 namespace metamer::spectral_ref {
@@ -25,7 +26,7 @@ class GatheredResponses {
 
   /// Adds three responses and luminance to a replicate.
   /// @return  false, and nothing added, where they are too large, or no numbers
-  bool add(std::size_t replicate, const Eigen::Array4f& response) {
+  METAMER_ALWAYS_INLINE bool add(std::size_t replicate, const Eigen::Array4f& response) {
     if (!(response.square().sum() < m_mostSquared)) {
       return false;
     }

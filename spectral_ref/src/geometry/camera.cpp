@@ -52,6 +52,16 @@ METAMER_VECTOR_LANES void directionsThrough(const std::array<Vec3, 3>& film, con
   }
 }
 
+/// Places about pixels' centres, evenly over a box.
+METAMER_VECTOR_LANES void placesInBoxes(const EachRay<int>& pixels, const EachRay<float>& u, float radius,
+                                        EachRay<float>& places) {
+  const float width = 2.0F * radius;
+  METAMER_RAYS_APART
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    places[i] = (static_cast<float>(pixels[i]) + 0.5F) + (u[i] - 0.5F) * width;
+  }
+}
+
 }  // namespace
 
 Camera::Camera(const CameraSettings& settings, const FilmSettings& film)
@@ -76,6 +86,23 @@ void Camera::rays(const EachRay<float>& x, const EachRay<float>& y, RayGroup& ra
   rays.origin.y.fill(m_origin.y());
   rays.origin.z.fill(m_origin.z());
   rays.most.fill(std::numeric_limits<float>::infinity());
+}
+
+void Camera::filteredRays(const EachRay<int>& x, const EachRay<int>& y, const EachRay<float>& u,
+                          const EachRay<float>& v, RayGroup& rays) const {
+  EachRay<float> across{};
+  EachRay<float> down{};
+  if (m_filter == FilmSettings::Filter::Gaussian) {
+    for (std::size_t i = 0; i < kRaysTogether; ++i) {
+      const Eigen::Vector2f place = filtered(x[i], y[i], {u[i], v[i]});
+      across[i] = place.x();
+      down[i] = place.y();
+    }
+  } else {
+    placesInBoxes(x, u, m_radius, across);
+    placesInBoxes(y, v, m_radius, down);
+  }
+  this->rays(across, down, rays);
 }
 
 Eigen::Vector2f Camera::gaussian(const Eigen::Vector2f& square) const {

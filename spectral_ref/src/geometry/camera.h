@@ -20,6 +20,11 @@ class Camera {
   }
   /// Those through several places at once.
   void rays(const EachRay<float>& x, const EachRay<float>& y, RayGroup& rays) const;
+  /// Those through places about several pixels' centres, drawn by the pixel filter.
+  /// @param x, y  pixels
+  /// @param u, v  0 ... 1
+  void filteredRays(const EachRay<int>& x, const EachRay<int>& y, const EachRay<float>& u, const EachRay<float>& v,
+                    RayGroup& rays) const;
   /// A place on the film about a pixel's centre, drawn by the pixel filter.
   Eigen::Vector2f filtered(int x, int y, const Eigen::Vector2f& square) const {
     const Eigen::Vector2f pixel(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);

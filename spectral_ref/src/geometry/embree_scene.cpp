@@ -80,28 +80,37 @@ bool isAlone(RayMask active) {
   return (active & (active - 1U)) == 0;
 }
 
+/// Rays of a group that Embree takes at once: as many as it has lanes for on most machines.
+constexpr std::size_t kPacket = 8;
+static_assert(kRaysTogether % kPacket == 0);
+constexpr RayMask kWholePacket = firstRays(kPacket);
+/// Embree's: -1 for rays that count, else 0.
+using Valid = std::array<int, kPacket>;
+
 /// A number of each ray as Embree has it; in place of those that do not count stands one that does.
-METAMER_ALWAYS_INLINE void fill(float* to, const EachRay<float>& from, const EachRay<int>& valid, std::size_t first) {
+METAMER_ALWAYS_INLINE void fill(float* to, const float* from, const Valid& valid, std::size_t first) {
   const float instead = from[first];
   METAMER_RAYS_APART
-  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+  for (std::size_t i = 0; i < kPacket; ++i) {
     to[i] = valid[i] != 0 ? from[i] : instead;
   }
 }
 
-METAMER_VECTOR_LANES void pack(const RayGroup& rays, RayMask active, RTCRay8& packed, EachRay<int>& valid) {
+/// @param start   first ray of the packet in the group
+/// @param active  of the packet
+METAMER_VECTOR_LANES void pack(const RayGroup& rays, std::size_t start, RayMask active, RTCRay8& packed, Valid& valid) {
   const auto first = static_cast<std::size_t>(std::countr_zero(active));
-  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+  for (std::size_t i = 0; i < kPacket; ++i) {
     valid[i] = -static_cast<int>((active >> i) & 1U);
   }
-  fill(packed.org_x, rays.origin.x, valid, first);
-  fill(packed.org_y, rays.origin.y, valid, first);
-  fill(packed.org_z, rays.origin.z, valid, first);
-  fill(packed.dir_x, rays.direction.x, valid, first);
-  fill(packed.dir_y, rays.direction.y, valid, first);
-  fill(packed.dir_z, rays.direction.z, valid, first);
-  fill(packed.tfar, rays.most, valid, first);
-  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+  fill(packed.org_x, &rays.origin.x[start], valid, first);
+  fill(packed.org_y, &rays.origin.y[start], valid, first);
+  fill(packed.org_z, &rays.origin.z[start], valid, first);
+  fill(packed.dir_x, &rays.direction.x[start], valid, first);
+  fill(packed.dir_y, &rays.direction.y[start], valid, first);
+  fill(packed.dir_z, &rays.direction.z[start], valid, first);
+  fill(packed.tfar, &rays.most[start], valid, first);
+  for (std::size_t i = 0; i < kPacket; ++i) {
     packed.tnear[i] = 0.0F;
     packed.time[i] = 0.0F;
     packed.mask[i] = 0xffffffffU;
@@ -111,18 +120,31 @@ METAMER_VECTOR_LANES void pack(const RayGroup& rays, RayMask active, RTCRay8& pa
 }
 
 /// Where rays end, those that hit nothing included.
-METAMER_VECTOR_LANES void unpack(const RayGroup& rays, const RTCRayHit8& query, HitGroup& hits) {
+METAMER_VECTOR_LANES void unpack(const RayGroup& rays, std::size_t start, const RTCRayHit8& query, HitGroup& hits) {
   METAMER_RAYS_APART
-  for (std::size_t i = 0; i < kRaysTogether; ++i) {
-    const float distance = query.ray.tfar[i];
+  for (std::size_t n = 0; n < kPacket; ++n) {
+    const std::size_t i = start + n;
+    const float distance = query.ray.tfar[n];
     hits.position.x[i] = rays.origin.x[i] + rays.direction.x[i] * distance;
     hits.position.y[i] = rays.origin.y[i] + rays.direction.y[i] * distance;
     hits.position.z[i] = rays.origin.z[i] + rays.direction.z[i] * distance;
     hits.distance[i] = distance;
-    hits.u[i] = query.hit.u[i];
-    hits.v[i] = query.hit.v[i];
-    hits.primitive[i] = query.hit.primID[i];
+    hits.u[i] = query.hit.u[n];
+    hits.v[i] = query.hit.v[n];
+    hits.primitive[i] = query.hit.primID[n];
   }
+}
+
+/// Asks for the rays of each packet that has some. @return  those that `work` says, of the whole group
+template <typename Work>
+RayMask forEachPacket(RayMask active, const Work& work) {
+  RayMask result = 0;
+  for (std::size_t start = 0; start < kRaysTogether; start += kPacket) {
+    if (const RayMask ofPacket = (active >> start) & kWholePacket; ofPacket != 0) {
+      result |= work(start, ofPacket) << start;
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -249,38 +271,41 @@ bool EmbreeScene::intersect(const Ray& ray, Hit& hit) const {
 
 RayMask EmbreeScene::intersect(const RayGroup& rays, RayMask active, HitGroup& hits, Course course) const {
   assert(active != 0);
-  if (isAlone(active)) {
-    const auto alone = static_cast<std::size_t>(std::countr_zero(active));
-    Hit hit;
-    if (!intersect(rays[alone], hit)) {
-      return 0;
+  return forEachPacket(active, [&](std::size_t start, RayMask ofPacket) -> RayMask {
+    if (isAlone(ofPacket)) {
+      const std::size_t alone = start + static_cast<std::size_t>(std::countr_zero(ofPacket));
+      Hit hit;
+      if (!intersect(rays[alone], hit)) {
+        return 0;
+      }
+      hits.set(alone, hit);
+      return ofPacket;
     }
-    hits.set(alone, hit);
-    return active;
-  }
-  RTCRayHit8 query;
-  alignas(32) EachRay<int> valid;
-  pack(rays, active, query.ray, valid);
-  for (std::size_t i = 0; i < kRaysTogether; ++i) {
-    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
-  }
-  ask(rtcIntersect8, course, query, valid.data(), m_handles->scene.get());
-  unpack(rays, query, hits);
-  RayMask found = 0;
-  forEachRay(active, [&](std::size_t i) {
-    if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
-      return;
+    RTCRayHit8 query;
+    alignas(32) Valid valid;
+    pack(rays, start, ofPacket, query.ray, valid);
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    found |= RayMask{1} << i;
-    const HitSurface surface = surfaceAt(query.hit.geomID[i], query.hit.primID[i], hits.position[i],
-                                         {query.hit.Ng_x[i], query.hit.Ng_y[i], query.hit.Ng_z[i]});
-    hits.position.set(i, surface.position);
-    hits.normal.set(i, surface.normal);
-    hits.material[i] = surface.material;
-    hits.emitter[i] = surface.emitter;
+    ask(rtcIntersect8, course, query, valid.data(), m_handles->scene.get());
+    unpack(rays, start, query, hits);
+    RayMask found = 0;
+    forEachRay(ofPacket, [&](std::size_t n) {
+      if (query.hit.geomID[n] == RTC_INVALID_GEOMETRY_ID) {
+        return;
+      }
+      found |= RayMask{1} << n;
+      const std::size_t i = start + n;
+      const HitSurface surface = surfaceAt(query.hit.geomID[n], query.hit.primID[n], hits.position[i],
+                                           {query.hit.Ng_x[n], query.hit.Ng_y[n], query.hit.Ng_z[n]});
+      hits.position.set(i, surface.position);
+      hits.normal.set(i, surface.normal);
+      hits.material[i] = surface.material;
+      hits.emitter[i] = surface.emitter;
+    });
+    return found;
   });
-  return found;
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {
@@ -291,16 +316,18 @@ bool EmbreeScene::occluded(const Ray& ray) const {
 
 RayMask EmbreeScene::occluded(const RayGroup& rays, RayMask active, Course course) const {
   assert(active != 0);
-  if (isAlone(active)) {
-    return occluded(rays[static_cast<std::size_t>(std::countr_zero(active))]) ? active : 0;
-  }
-  RTCRay8 query;
-  alignas(32) EachRay<int> valid;
-  pack(rays, active, query, valid);
-  ask(rtcOccluded8, course, query, valid.data(), m_handles->scene.get());
-  RayMask found = 0;
-  forEachRay(active, [&](std::size_t i) { found |= query.tfar[i] < 0.0F ? RayMask{1} << i : 0U; });
-  return found;
+  return forEachPacket(active, [&](std::size_t start, RayMask ofPacket) -> RayMask {
+    if (isAlone(ofPacket)) {
+      return occluded(rays[start + static_cast<std::size_t>(std::countr_zero(ofPacket))]) ? ofPacket : 0;
+    }
+    RTCRay8 query;
+    alignas(32) Valid valid;
+    pack(rays, start, ofPacket, query, valid);
+    ask(rtcOccluded8, course, query, valid.data(), m_handles->scene.get());
+    RayMask found = 0;
+    forEachRay(ofPacket, [&](std::size_t n) { found |= query.tfar[n] < 0.0F ? RayMask{1} << n : 0U; });
+    return found;
+  });
 }
 
 }  // namespace metamer::spectral_ref

@@ -36,7 +36,7 @@ struct Hit {
 };
 
 /// Rays that are traced at once.
-inline constexpr std::size_t kRaysTogether = 8;
+inline constexpr std::size_t kRaysTogether = 16;
 /// Bit i stands for ray i of a group.
 using RayMask = std::uint32_t;
 
@@ -58,8 +58,17 @@ void forEachRay(RayMask mask, const Work& work) {
 template <typename T>
 using EachRay = std::array<T, kRaysTogether>;
 
+/// The bit of each ray: a table, for masks that vector lanes make.
+inline constexpr EachRay<RayMask> kRayBits = [] {
+  EachRay<RayMask> bits{};
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    bits[i] = RayMask{1} << i;
+  }
+  return bits;
+}();
+
 /// A vector for each ray.
-struct alignas(32) EachVec3 {
+struct alignas(64) EachVec3 {
   EachRay<float> x{};
   EachRay<float> y{};
   EachRay<float> z{};

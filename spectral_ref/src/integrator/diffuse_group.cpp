@@ -72,7 +72,44 @@ METAMER_VECTOR_LANES void scatter(const HitGroup& hits, const EachRay<float>& u,
   }
 }
 
+METAMER_VECTOR_LANES RayMask against(const EachVec3& directions, const EachVec3& normals) {
+  RayMask result = 0;
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    const float cosine =
+        directions.x[i] * normals.x[i] + directions.y[i] * normals.y[i] + directions.z[i] * normals.z[i];
+    result |= cosine < 0.0F ? kRayBits[i] : 0U;
+  }
+  return result;
+}
+
+METAMER_VECTOR_LANES void along(const Vec3& corner, const Vec3& edgeU, const Vec3& edgeV, const EachRay<float>& u,
+                                const EachRay<float>& v, EachVec3& places) {
+  const float cx = corner.x(), cy = corner.y(), cz = corner.z();
+  const float ux = edgeU.x(), uy = edgeU.y(), uz = edgeU.z();
+  const float vx = edgeV.x(), vy = edgeV.y(), vz = edgeV.z();
+  METAMER_RAYS_APART
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    places.x[i] = cx + ux * u[i] + vx * v[i];
+    places.y[i] = cy + uy * u[i] + vy * v[i];
+    places.z[i] = cz + uz * u[i] + vz * v[i];
+  }
+}
+
 }  // namespace
+
+RayMask onFront(const RayGroup& rays, const HitGroup& hits) {
+  return against(rays.direction, hits.normal);
+}
+
+void pointsOn(const RectangleEmitter& rectangle, const EachRay<float>& u, const EachRay<float>& v,
+              LightsOfGroup& lights) {
+  along(rectangle.corner, rectangle.edgeU, rectangle.edgeV, u, v, lights.place);
+  const Vec3 area = rectangle.normal * rectangle.area;
+  lights.area.x.fill(area.x());
+  lights.area.y.fill(area.y());
+  lights.area.z.fill(area.z());
+  lights.chance.fill(1.0F);
+}
 
 void lookAtLights(const HitGroup& hits, LightsOfGroup& lights, RayGroup& towards) {
   look(hits, lights, towards);

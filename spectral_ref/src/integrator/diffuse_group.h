@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/ray_group.h"
+#include "lights/rectangle_emitter.h"
 
 // What diffuse surfaces do to the paths of a group, as far as it is the same at all wavelengths: in vector lanes, the
 // ones that do not count included.
@@ -15,6 +16,14 @@ struct LightsOfGroup {
   EachRay<float> isShared{};  ///< 1: the next direction may find the point as well; 0: it does not
   EachRay<float> weight{};  ///< found: what reflectance times radiance is multiplied with, the balance heuristic in it
 };
+
+/// Those of a group's rays that come to the front of what they hit. Of rays that hit nothing, any.
+RayMask onFront(const RayGroup& rays, const HitGroup& hits);
+
+/// Draws points of the only light there is: all of `lights` but `isShared` and the weights.
+/// @param u, v  0 ... 1
+void pointsOn(const RectangleEmitter& rectangle, const EachRay<float>& u, const EachRay<float>& v,
+              LightsOfGroup& lights);
 
 /// Finds the weights of points, 0 where one is not seen, and the rays to them.
 /// @param towards  not of unit length: they end a little short of the points

@@ -10,13 +10,14 @@
 #include "integrator/gel_passage.h"
 #include "integrator/path_state.h"
 #include "integrator/prepared_scene.h"
+#include "metamer/spectral/vector_lanes.h"
 
 namespace metamer::spectral_ref {
 
-/// Whether all that is left for a path is to find a light, and next-event estimation does that as well: far from all
-/// lights the last direction of a diffuse surface is left out.
-inline bool isLastVertex(const PreparedScene& prepared, int edge, const Vec3& place) {
-  return edge + 1 == prepared.scene.integrator.maxDepth && !prepared.lightReach.isNear(place);
+/// Whether all that is left for a path is to find a light. Next-event estimation does that as well: far from all lights
+/// the last direction of a diffuse surface is left out.
+inline bool isLastVertex(const PreparedScene& prepared, int edge) {
+  return edge + 1 == prepared.scene.integrator.maxDepth;
 }
 
 /// Russian roulette on the largest lane, the same for every hero, so that it changes no weight.
@@ -43,10 +44,12 @@ class DiffuseSurfaces {
   static_assert(kRaysTogether <= LightChoice::kMostTogether);
 
   explicit DiffuseSurfaces(const PreparedScene& prepared)
-      : m_prepared(prepared), m_isOff(kDispersive || prepared.materials.hasGels() || prepared.lights.empty()) {}
+      : m_prepared(prepared),
+        m_onlyLight(prepared.lights.onlyRectangle()),
+        m_isOff(kDispersive || prepared.materials.hasGels() || prepared.lights.empty()) {}
 
   /// Those of some paths that scatter() does all for.
-  RayMask which(const Group& group, RayMask paths) const {
+  METAMER_ALWAYS_INLINE RayMask which(const Group& group, RayMask paths) const {
     RayMask plain = 0;
     if (!m_isOff) {
       forEachRay(paths, [&](std::size_t i) {
@@ -58,7 +61,8 @@ class DiffuseSurfaces {
 
   /// The paths' direct light, still to be tested, and their next directions. @return  those that go on
   /// @param others  paths whose rays stay as they are
-  RayMask scatter(int edge, RayMask paths, RayMask others, Group& group, PathStarts<C>& starts) const {
+  METAMER_ALWAYS_INLINE RayMask scatter(int edge, RayMask paths, RayMask others, Group& group,
+                                        PathStarts<C>& starts) const {
     if constexpr (kDispersive) {
       return 0;
     } else {
@@ -79,15 +83,16 @@ class DiffuseSurfaces {
     RayMask goOn = 0;   ///< those of them that have more edges
   };
 
-  void look(int edge, RayMask paths, const Group& group, Surfaces& surfaces) const {
+  METAMER_ALWAYS_INLINE void look(int edge, RayMask paths, const Group& group, Surfaces& surfaces) const {
     const HitGroup& hits = group.hits;
-    forEachRay(paths, [&](std::size_t i) {
-      if (group.rays.direction[i].dot(hits.normal[i]) < 0.0F) {
-        surfaces.reflectances[i] =
-            m_prepared.spectra.at(m_prepared.materials.colour(hits.material[i]), group.paths[i].lanes);
-        surfaces.front |= RayMask{1} << i;
-        surfaces.goOn |= isLastVertex(m_prepared, edge, hits.position[i]) ? 0U : RayMask{1} << i;
-      }
+    surfaces.front = paths & onFront(group.rays, hits);
+    surfaces.goOn = surfaces.front;
+    if (isLastVertex(m_prepared, edge)) {
+      surfaces.goOn &= m_prepared.lightReach.areNear(hits);
+    }
+    forEachRay(surfaces.front, [&](std::size_t i) {
+      surfaces.reflectances[i] =
+          m_prepared.spectra.at(m_prepared.materials.colour(hits.material[i]), group.paths[i].lanes);
     });
   }
 
@@ -95,8 +100,14 @@ class DiffuseSurfaces {
   /// @param entries  of the paths' lights
   /// @param areas    paths whose light has an area; `lights` tells of these
   /// @return  paths that have a light
-  RayMask chooseLights(const Group& group, const PathStarts<C>& starts, const Surfaces& surfaces,
-                       EachRay<std::uint32_t>& entries, LightsOfGroup& lights, RayMask& areas) const {
+  METAMER_ALWAYS_INLINE RayMask chooseLights(const Group& group, const PathStarts<C>& starts, const Surfaces& surfaces,
+                                             EachRay<std::uint32_t>& entries, LightsOfGroup& lights,
+                                             RayMask& areas) const {
+    if (m_onlyLight != nullptr) {
+      areas = surfaces.front;
+      drawOnOnlyLight(starts, surfaces, lights);
+      return surfaces.front;
+    }
     std::array<LitPoint, kRaysTogether> points;
     std::array<std::uint32_t, kRaysTogether> bits{};
     std::array<LightChoice::Choice, kRaysTogether> choices;
@@ -128,7 +139,20 @@ class DiffuseSurfaces {
     return found;
   }
 
-  void addDirect(Group& group, const PathStarts<C>& starts, const Surfaces& surfaces) const {
+  METAMER_ALWAYS_INLINE void drawOnOnlyLight(const PathStarts<C>& starts, const Surfaces& surfaces,
+                                             LightsOfGroup& lights) const {
+    EachRay<float> u{};
+    EachRay<float> v{};
+    forEachRay(surfaces.front, [&](std::size_t i) {
+      const Eigen::Vector2f place = starts.paths[i].random.onLight();
+      u[i] = place.x();
+      v[i] = place.y();
+      lights.isShared[i] = (surfaces.goOn & kRayBits[i]) != 0 ? 1.0F : 0.0F;
+    });
+    pointsOn(*m_onlyLight, u, v, lights);
+  }
+
+  METAMER_ALWAYS_INLINE void addDirect(Group& group, const PathStarts<C>& starts, const Surfaces& surfaces) const {
     EachRay<std::uint32_t> entries{};
     LightsOfGroup lights;
     RayMask areas = 0;
@@ -154,7 +178,8 @@ class DiffuseSurfaces {
     });
   }
 
-  RayMask goOn(int edge, RayMask others, Group& group, const PathStarts<C>& starts, const Surfaces& surfaces) const {
+  METAMER_ALWAYS_INLINE RayMask goOn(int edge, RayMask others, Group& group, const PathStarts<C>& starts,
+                                     const Surfaces& surfaces) const {
     EachRay<float> u{};
     EachRay<float> v{};
     forEachRay(surfaces.goOn, [&](std::size_t i) {
@@ -180,6 +205,7 @@ class DiffuseSurfaces {
   }
 
   const PreparedScene& m_prepared;
+  const RectangleEmitter* const m_onlyLight;  ///< null where there are others
   const bool m_isOff;
 };
 

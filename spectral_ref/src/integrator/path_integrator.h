@@ -10,6 +10,7 @@
 #include "integrator/path_state.h"
 #include "integrator/prepared_scene.h"
 #include "integrator/reservoir.h"
+#include "metamer/spectral/vector_lanes.h"
 #include "wavelengths/lanes.h"
 
 namespace metamer::spectral_ref {
@@ -42,7 +43,8 @@ class PathIntegrator {
   /// Follows paths; their radiance is in the group afterwards.
   /// @param resampling  of each path: gives the direct light of its first surface, where that is diffuse
   template <typename Resampling>
-  void follow(PathStarts<C>& starts, const std::array<Resampling, kRaysTogether>& resampling, Group& group) const {
+  METAMER_VECTOR_LANES void follow(PathStarts<C>& starts, const std::array<Resampling, kRaysTogether>& resampling,
+                                   Group& group) const {
     group.rays = starts.rays;
     for (std::size_t i = 0; i < starts.count; ++i) {
       group.paths[i].begin(starts.paths[i].wavelengths);
@@ -163,7 +165,8 @@ class PathIntegrator {
       }
     }
     if (!isResampled && !bsdf.isDelta() && !m_prepared.lights.empty()) {
-      isLast = m_prepared.materials.isDiffuse(hit.material) && isLastVertex(m_prepared, edge, hit.position);
+      isLast = m_prepared.materials.isDiffuse(hit.material) && isLastVertex(m_prepared, edge) &&
+               !m_prepared.lightReach.isNear(hit.position);
       addDirectLight(i, group, frame, out, bsdf, random, !isLast);
     }
     Ray next;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <vector>
 
 #include "integrator/state_bytes.h"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t kMostSamplesAPass = GatheredResponses::kMostPaths;
 /// Of the bytes of a checkpoint; changes with anything that changes a bit of a picture.
-constexpr std::uint64_t kStateVersion = 0x6d65746100000009U;
+constexpr std::uint64_t kStateVersion = 0x6d6574610000000aU;
 
 std::vector<Tile> tilesOf(int width, int height) {
   std::vector<Tile> tiles;
@@ -139,17 +140,23 @@ void Renderer::render(std::uint64_t end, double seconds) {
   const Clock::time_point start = Clock::now();
   const auto elapsed = [&start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   m_state->learnWavelengths();
-  while (m_state->next() < end && elapsed() < seconds) {
+  double left = seconds - elapsed();
+  double least = 0;
+  while (m_state->next() < end && left > least) {
     // As many samples a pass as fill the time left, once their price is known.
     std::uint64_t count = 1;
     if (m_state->secondsASample > 0) {
-      const double fitting = (seconds - elapsed()) / m_state->secondsASample;
+      const double fitting = std::round(left / m_state->secondsASample);
       count = static_cast<std::uint64_t>(std::clamp(fitting, 1.0, static_cast<double>(kMostSamplesAPass)));
     }
     const double before = elapsed();
     count = m_state->passEnd(std::min(count, end - std::min(end, m_state->cursor))) - m_state->cursor;
     m_state->pass(m_state->cursor + count);
-    m_state->secondsASample = (elapsed() - before) / static_cast<double>(count);
+    const double after = elapsed();
+    m_state->secondsASample = (after - before) / static_cast<double>(count);
+    left = seconds - after;
+    // Samples of small passes take longer: none is begun for less time than half of one takes.
+    least = 0.5 * m_state->secondsASample;
   }
 }
 

@@ -174,14 +174,15 @@ METAMER_VECTOR_LANES void makeSeeds(Sampler::Seeds* const* sets, std::size_t cou
 
 /// All dimensions of several points: while one waits for a product, the next is begun.
 METAMER_VECTOR_LANES void makePoints(const Sampler::Order* orders, std::size_t count) {
-  static_assert(Sampler::kMostTogether == Sampler::kSetSize, "as many points as dimensions");
+  static_assert(Sampler::kMostTogether % Sampler::kSetSize == 0);
   alignas(Several) std::array<std::uint32_t, Sampler::kMostTogether> indices{};
   alignas(Several) std::array<std::uint32_t, Sampler::kMostTogether> shuffles{};
   for (std::size_t n = 0; n < count; ++n) {
     indices[n] = orders[n].index;
     shuffles[n] = orders[n].seeds->index;
   }
-  for (std::size_t i = 0; i < kParts; ++i) {
+  constexpr std::size_t kIndexParts = Sampler::kMostTogether * sizeof(std::uint32_t) / sizeof(Several);
+  for (std::size_t i = 0; i < kIndexParts; ++i) {
     Several several = severalOf(indices.data())[i];
     shuffle<Several>(several, severalOf(shuffles.data())[i]);
     severalOf(indices.data())[i] = several;
@@ -190,11 +191,18 @@ METAMER_VECTOR_LANES void makePoints(const Sampler::Order* orders, std::size_t c
     const Sampler::Seeds& seeds = *orders[n].seeds;
     std::array<Several, kParts> bits{};
     std::uint32_t index = indices[n];
-    // Those of the shuffled bits without asking which are zero.
-    for (std::size_t digit = 0; digit < kShuffledBits / kDigitBits || index != 0; ++digit, index >>= kDigitBits) {
+    const auto add = [&](std::size_t digit, std::uint32_t value) {
       for (std::size_t i = 0; i < kParts; ++i) {
-        bits[i] ^= severalOf(kDigits[digit][index % kDigitValues].data())[i];
+        bits[i] ^= severalOf(kDigits[digit][value % kDigitValues].data())[i];
       }
+    };
+    // Those of the shuffled bits without asking which are zero.
+    for (std::size_t digit = 0; digit < kShuffledBits / kDigitBits; ++digit) {
+      add(digit, index >> (digit * kDigitBits));
+    }
+    index >>= kShuffledBits;
+    for (std::size_t digit = kShuffledBits / kDigitBits; index != 0; ++digit, index >>= kDigitBits) {
+      add(digit, index);
     }
     for (std::size_t i = 0; i < kParts; ++i) {
       const Several seed = severalOf(seeds.dimensions.data())[i];

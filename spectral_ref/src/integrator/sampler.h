@@ -61,7 +61,7 @@ class Sampler {
     const Seeds* seeds;
     Set* set;
   };
-  static constexpr std::size_t kMostTogether = 8;
+  static constexpr std::size_t kMostTogether = 16;
   /// The seeds of a set of several sequences. @param seeds  of each; at most kMostTogether
   static void seed(std::span<const std::uint32_t> sequences, std::uint32_t number, std::span<Seeds> seeds);
   /// @param orders  at most kMostTogether

@@ -16,6 +16,7 @@
 #include "integrator/path_random.h"
 #include "integrator/reservoir.h"
 #include "integrator/tile_tracer.h"
+#include "metamer/spectral/vector_lanes.h"
 #include "wavelengths/wavelength_sampling.h"
 
 namespace metamer::spectral_ref {
@@ -29,6 +30,7 @@ struct PixelGroup {
     std::size_t pixel = 0;
     std::uint32_t part = 0;
     std::uint32_t parts = 1;
+    float share = 1.0F;  ///< of the sample: one of the parts
   };
   std::size_t count = 0;
   std::array<Place, kRaysTogether> places;
@@ -92,11 +94,8 @@ class LaneTracer : public TileTracer {
         }
         startPaths(pixels, *sequences[replicate], static_cast<std::uint32_t>(replicates.index(sample)), starts);
         follow(pixels, sample, starts, group);
-        for (std::size_t i = 0; i < pixels.count && isKept; ++i) {
-          const PixelGroup::Place& place = pixels.places[i];
-          m_context.sensor.template add<C>(m_context.film, gathered[i], place.pixel, replicate,
-                                           starts.paths[i].wavelengths,
-                                           group.paths[i].radiance / static_cast<float>(place.parts));
+        if (isKept) {
+          gather(pixels, replicate, starts, group, gathered);
         }
       }
       for (std::size_t i = 0; i < pixels.count && isKept; ++i) {
@@ -155,7 +154,7 @@ class LaneTracer : public TileTracer {
           const int y = top + i / kAcross;
           const std::uint32_t count = x < tile.x1 && y < tile.y1 ? parts(x, y) : 0U;
           for (std::uint32_t part = 0; part < count; ++part) {
-            group.places[group.count++] = {x, y, pixelOf(x, y), part, count};
+            group.places[group.count++] = {x, y, pixelOf(x, y), part, count, 1.0F / static_cast<float>(count)};
             if (group.count == kRaysTogether) {
               finish();
             }
@@ -166,9 +165,18 @@ class LaneTracer : public TileTracer {
     finish();
   }
 
+  METAMER_VECTOR_LANES void gather(const PixelGroup& pixels, std::size_t replicate, const PathStarts<C>& starts,
+                                   const Group& group, std::vector<GatheredResponses>& gathered) const {
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+      const PixelGroup::Place& place = pixels.places[i];
+      m_context.sensor.template add<C>(m_context.film, gathered[i], place.pixel, replicate, starts.paths[i].wavelengths,
+                                       group.paths[i].radiance * place.share);
+    }
+  }
+
   /// Random numbers, wavelengths and camera rays of a group's paths. @param index  of the sample in its sequence
-  void startPaths(const PixelGroup& pixels, const Sequences& sequences, std::uint32_t index,
-                  PathStarts<C>& starts) const {
+  METAMER_VECTOR_LANES void startPaths(const PixelGroup& pixels, const Sequences& sequences, std::uint32_t index,
+                                       PathStarts<C>& starts) const {
     std::array<Sampler::Order, kRaysTogether> orders;
     starts.count = pixels.count;
     for (std::size_t i = 0; i < pixels.count; ++i) {
@@ -178,17 +186,21 @@ class LaneTracer : public TileTracer {
       orders[i] = {number, &sequences.first[i], &set};
     }
     Sampler::fill({orders.data(), pixels.count});
-    EachRay<float> x{};
-    EachRay<float> y{};
+    EachRay<int> x{};
+    EachRay<int> y{};
+    EachRay<float> u{};
+    EachRay<float> v{};
     for (std::size_t i = 0; i < pixels.count; ++i) {
       const PixelGroup::Place& at = pixels.places[i];
       PathStart<C>& start = starts.paths[i];
-      const Eigen::Vector2f place = m_context.prepared.camera.filtered(at.x, at.y, start.random.pixel());
-      x[i] = place.x();
-      y[i] = place.y();
+      const Eigen::Vector2f square = start.random.pixel();
+      x[i] = at.x;
+      y[i] = at.y;
+      u[i] = square.x();
+      v[i] = square.y();
       start.wavelengths = wavelengthsOf(at.x, at.y, start.random.wavelength());
     }
-    m_context.prepared.camera.rays(x, y, starts.rays);
+    m_context.prepared.camera.filteredRays(x, y, u, v, starts.rays);
   }
 
   WavelengthSet<C> wavelengthsOf(int x, int y, float u) const {

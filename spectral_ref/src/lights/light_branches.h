@@ -22,7 +22,7 @@ class LightBranches {
   explicit LightBranches(const LightTree& tree);
 
   /// Points that leaves are drawn for at once, at most.
-  static constexpr std::size_t kMostTogether = 8;
+  static constexpr std::size_t kMostTogether = 16;
 
   /// Lights that lie together in the tree's order.
   struct Leaf {

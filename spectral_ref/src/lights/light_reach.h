@@ -27,6 +27,9 @@ class LightReach {
     m_reach = widest / kNear;
   }
 
+  /// Of the places of several hits, those that are.
+  RayMask areNear(const HitGroup& hits) const;
+
   /// Whether any light may take up much of the view from there.
   bool isNear(const Vec3& place) const {
     const Vec3 beyond = (m_least - place).cwiseMax(place - m_most).cwiseMax(0.0F);

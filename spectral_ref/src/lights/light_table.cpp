@@ -124,6 +124,14 @@ std::optional<AreaPoint> LightTable::areaPoint(const LightPoint& point) const {
       emitter.kind);
 }
 
+const RectangleEmitter* LightTable::onlyRectangle() const {
+  if (entryCount() != 1) {
+    return nullptr;
+  }
+  const auto* rectangle = std::get_if<RectangleEmitter>(&m_emitters.front().kind);
+  return rectangle != nullptr && rectangle->picture == nullptr ? rectangle : nullptr;
+}
+
 LightSample LightTable::located(const LightPoint& point, const Vec3& from) const {
   const std::uint32_t index = m_emitterOfEntry[point.entry];
   const Emitter& emitter = m_emitters[index];

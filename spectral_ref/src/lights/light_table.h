@@ -12,6 +12,7 @@
 #include "lights/light_kinds.h"
 #include "lights/light_sample.h"
 #include "lights/light_tree.h"
+#include "metamer/spectral/vector_lanes.h"
 #include "metamer/spectral_ref/scene.h"
 #include "wavelengths/lanes.h"
 
@@ -36,6 +37,8 @@ class LightTable {
   std::size_t entryCount() const { return m_choice.size(); }
   /// Entries that are not infinitely far.
   std::size_t nearCount() const { return m_nearCount; }
+  /// The only light, if that is a rectangle that shines evenly: nothing is to be chosen. Else null.
+  const RectangleEmitter* onlyRectangle() const;
   bool hasEnvironment() const { return m_environment != kNone; }
 
   /// Draws an entry by power.
@@ -107,8 +110,8 @@ class LightTable {
 
   /// Radiance (point and spot lights: intensity) towards the side that emits.
   template <int C>
-  Lanes<C> radiance(std::uint32_t emitter, std::uint32_t element, const SpectrumTables& spectra,
-                    const WavelengthSet<C>& wavelengths) const {
+  METAMER_ALWAYS_INLINE Lanes<C> radiance(std::uint32_t emitter, std::uint32_t element, const SpectrumTables& spectra,
+                                          const WavelengthSet<C>& wavelengths) const {
     const Emitter& source = m_emitters[emitter];
     if (source.glow.picture == nullptr) {
       return spectra.at(source.glow.spectrum, wavelengths);
@@ -123,7 +126,8 @@ class LightTable {
   }
   /// The same of an entry.
   template <int C>
-  Lanes<C> radianceOf(std::uint32_t entry, const SpectrumTables& spectra, const WavelengthSet<C>& wavelengths) const {
+  METAMER_ALWAYS_INLINE Lanes<C> radianceOf(std::uint32_t entry, const SpectrumTables& spectra,
+                                            const WavelengthSet<C>& wavelengths) const {
     const std::uint32_t emitter = m_emitterOfEntry[entry];
     return radiance<C>(emitter, entry - m_emitters[emitter].first, spectra, wavelengths);
   }

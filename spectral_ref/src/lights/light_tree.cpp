@@ -2,8 +2,12 @@
 #include "lights/light_tree.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace metamer::spectral_ref {
 namespace {
@@ -33,6 +37,58 @@ struct Place {
   Vec3 twiceCenter;
   std::uint32_t light;
 };
+
+/// Whole numbers in the order of floats. @param value  no NaN; both zeros are alike
+std::uint32_t ordered(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value + 0.0F);
+  return bits ^ ((0U - (bits >> 31U)) | 0x80000000U);
+}
+
+/// Where a place comes along an axis. By number where places are equal: the same tree whatever the library.
+std::uint64_t keyOf(const Place& place, Eigen::Index axis) {
+  return std::uint64_t{ordered(place.twiceCenter[axis])} << 32U | place.light;
+}
+
+/// Puts those of first ... last - 1 that come before a pivot, one of them, to the front, in steps without branches:
+/// which way one goes is chance. @return  where the others begin, the pivot first
+Place* parted(Place* first, Place* last, Place* pivot, Eigen::Index axis) {
+  std::swap(*pivot, *(last - 1));
+  const std::uint64_t bound = keyOf(*(last - 1), axis);
+  Place* others = first;
+  for (Place* place = first; place != last - 1; ++place) {
+    const Place moved = *place;
+    *place = *others;
+    *others = moved;
+    others += keyOf(moved, axis) < bound ? 1 : 0;
+  }
+  std::swap(*others, *(last - 1));
+  return others;
+}
+
+/// As std::nth_element, which asks at every step. What it leaves on either side is the same.
+void putLesserFirst(Place* first, Place* middle, Place* last, Eigen::Index axis) {
+  constexpr std::ptrdiff_t kFew = 32;
+  constexpr int kMostRounds = 64;  // where pivots are unlucky, the library's way does not mind
+  const auto before = [axis](const Place& a, const Place& b) { return keyOf(a, axis) < keyOf(b, axis); };
+  for (int round = 0; last - first > kFew && round < kMostRounds; ++round) {
+    const std::ptrdiff_t eighth = (last - first) / 8;
+    std::array<Place*, 7> samples{};
+    for (std::ptrdiff_t i = 0; i < 7; ++i) {
+      samples[static_cast<std::size_t>(i)] = first + (i + 1) * eighth;
+    }
+    std::sort(samples.begin(), samples.end(), [&](const Place* a, const Place* b) { return before(*a, *b); });
+    Place* const others = parted(first, last, samples[samples.size() / 2], axis);
+    if (others == middle) {
+      return;
+    }
+    if (middle < others) {
+      last = others;
+    } else {
+      first = others + 1;
+    }
+  }
+  std::nth_element(first, middle, last, before);
+}
 
 /// Makes the nodes, and the order of the lights with them.
 class TreeBuilder {
@@ -71,13 +127,7 @@ class TreeBuilder {
     Eigen::Index axis = 0;
     (most - least).maxCoeff(&axis);
     const std::uint32_t middle = begin + (end - begin) / 2;
-    // By number where places are equal: the same tree whatever the library.
-    std::nth_element(m_places.begin() + begin, m_places.begin() + middle, m_places.begin() + end,
-                     [axis](const Place& a, const Place& b) {
-                       const float placeA = a.twiceCenter[axis];
-                       const float placeB = b.twiceCenter[axis];
-                       return placeA != placeB ? placeA < placeB : a.light < b.light;
-                     });
+    putLesserFirst(m_places.data() + begin, m_places.data() + middle, m_places.data() + end, axis);
     return middle;
   }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "metamer/spectral/vector_lanes.h"
 #include "metamer/spectral_ref/scene.h"
 
 namespace metamer::spectral_ref {
@@ -52,7 +53,7 @@ class SpectrumTables {
   const float* table(SpectrumId id) const { return m_values.data() + std::size_t{id} * kStride + kUltravioletCells; }
 
   template <int C>
-  Lanes<C> at(SpectrumId id, const WavelengthSet<C>& wavelengths) const {
+  METAMER_ALWAYS_INLINE Lanes<C> at(SpectrumId id, const WavelengthSet<C>& wavelengths) const {
     const float* values = table(id);
     Lanes<C> result;
     for (int k = 0; k < C; ++k) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "metamer/spectral/vector_lanes.h"
 #include "wavelengths/lanes.h"
 
 namespace metamer::spectral_ref {
@@ -13,7 +14,7 @@ namespace metamer::spectral_ref {
 /// Uniform density over the 401 cells.
 struct UniformWavelengths {
   /// F^-1(u), its cell and 1/density.
-  void sample(float u, float& nm, std::int32_t& cell, float& inverseDensity) const {
+  METAMER_ALWAYS_INLINE void sample(float u, float& nm, std::int32_t& cell, float& inverseDensity) const {
     const float x = u * static_cast<float>(kCells);
     cell = std::min(static_cast<std::int32_t>(x), kCells - 1);
     nm = kFirstEdgeNm + x;
@@ -34,7 +35,8 @@ enum class Spread {
 /// those that are stratified, choose the place within one period, and the last ones which of the lanes is the hero.
 /// @param u  0 ... 1, a multiple of 2^-24
 template <int C, typename Distribution>
-WavelengthSet<C> sampleWavelengths(const Distribution& distribution, float u, Spread spread = Spread::Lanes) {
+METAMER_ALWAYS_INLINE WavelengthSet<C> sampleWavelengths(const Distribution& distribution, float u,
+                                                         Spread spread = Spread::Lanes) {
   constexpr auto kLanes = static_cast<std::uint32_t>(C);
   constexpr std::uint32_t kUnits = 1U << 24U;
   constexpr std::uint32_t kPeriod = kUnits / kLanes;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 #include <string>
 
@@ -44,8 +45,9 @@ TEST(EmbreeSceneTest, AGroupFindsWhatItsRaysFindAlone) {
       ray.most = turn % 2 == 0 ? 1.5F : std::numeric_limits<float>::infinity();
       rays.set(i, ray);
     }
-    // All, some, one.
-    const RayMask active = turn % 3 == 0 ? 0xffU : turn % 3 == 1 ? 0xa6U : 0x10U;
+    // All, some, one in each packet, one in the second.
+    constexpr std::array<RayMask, 4> kActive = {kAllRays, 0x5aa6U, 0x0410U, 0x1000U};
+    const RayMask active = kActive[static_cast<std::size_t>(turn) % kActive.size()];
     HitGroup together;
     const RayMask found = shapes.intersect(rays, active, together);
     const RayMask hidden = shapes.occluded(rays, active);

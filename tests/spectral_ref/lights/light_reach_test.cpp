@@ -52,6 +52,22 @@ TEST(LightReachTest, NearIsWhatALampsSizeSays) {
   EXPECT_TRUE(PreparedScene(open, {}).lightReach.isNear({0, 0, -100}));
 }
 
+TEST(LightReachTest, ManyPlacesAreAsOne) {
+  const Scene scene = sceneOf(overFloor(3, 2));
+  const PreparedScene prepared(scene, {});
+  HitGroup hits;
+  RayMask near = 0;
+  for (std::size_t i = 0; i < kRaysTogether; ++i) {
+    // Across the border that is 3.83 off, in steps that do not meet it.
+    const float along = 3.0F + 0.11F * static_cast<float>(i);
+    hits.position.set(i, i % 2 == 0 ? Vec3(along, 0, 3) : Vec3(0, -along, 3));
+    near |= prepared.lightReach.isNear(hits.position[i]) ? RayMask{1} << i : 0U;
+  }
+  EXPECT_EQ(prepared.lightReach.areNear(hits), near);
+  EXPECT_NE(near, 0U);
+  EXPECT_NE(near, kAllRays);
+}
+
 TEST(LightReachTest, LightIsWholeOnEitherSide) {
   const double nothing = luminanceOver(rendered(sceneOf("metamer_scene: 1\nfilm: {width: 2, height: 2}\n"
                                                         "integrator: {wavelengths: 16}\n"
