@@ -196,6 +196,18 @@ class Kept(LutgenTest):
             self.assertWorks("apply", "--quiet", "r.yaml", "in.exr", f"{threads}.exr", "--threads", threads)
         self.assertEqual((self.folder / "1.exr").read_bytes(), (self.folder / "3.exr").read_bytes())
 
+    def test_a_system_without_proc_does_not_say_how_much_memory_it_has(self):
+        bare = ["unshare", "--mount", "--map-root-user", "sh", "-c", 'mount -t tmpfs none /proc && exec "$@"', "sh"]
+        if subprocess.run([*bare, "true"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("this machine lets nobody take /proc away")
+        Image.fromarray(np.arange(48, dtype=np.uint8).reshape(4, 4, 3)).save(self.folder / "in.png")
+        self.assertWorks("apply", "--quiet", "r.yaml", "in.png", "out.png")
+        # The program for pictures: lutgen finds it through /proc.
+        words = [*bare, LUTGEN.with_name("lutgen-pictures"), "apply", "--quiet", "r.yaml", "in.png", "bare.png"]
+        run = subprocess.run(words, capture_output=True, text=True, cwd=self.folder, check=False, timeout=60)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual((self.folder / "bare.png").read_bytes(), (self.folder / "out.png").read_bytes())
+
 
 class Layers(LutgenTest):
     def setUp(self):

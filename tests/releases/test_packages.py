@@ -73,6 +73,9 @@ class Packages(unittest.TestCase):
             cube = self.folder / f"{name}.cube"
             self.succeed(*prefix, program, "bake", recipe, "-o", cube, "--size", "17", cwd="/", env=own)
             self.assertIn("HP1", self.succeed(*prefix, program, "list", "illuminants", cwd="/", env=own))
+            still = tree / "share/metamer/demo/files/still.png"
+            self.succeed(*prefix, program, "apply", "--quiet", recipe, still, self.folder / f"{name}.png", cwd="/", env=own)
+            self.assertGreater((self.folder / f"{name}.png").stat().st_size, 1000)
             made.append(cube.read_bytes())
         self.assertGreater(len(made[0]), 17**3 * 10)
         self.assertEqual(set(made), {made[0]})

@@ -101,7 +101,8 @@ AnyPicture::AnyPicture(const std::filesystem::path& file, std::int64_t mostPixel
                        "is larger than " + std::to_string(mostPixels) + " pixels; --max-pixels allows more");
     }
     m_parts.push_back({spec, spec, {}, {}});
-    if (bytes() > OIIO::Sysutil::physical_memory() / 3) {
+    // 0 where the system does not say, such as in a chroot without /proc.
+    if (const auto memory = OIIO::Sysutil::physical_memory(); memory > 0 && bytes() > memory / 3) {
       throw InputError(m_file, "size", size, "is more than the memory of this machine holds; crop the picture");
     }
     if (input->seek_subimage(index, 1)) {
