@@ -248,12 +248,19 @@ std::vector<CubeSample> byNode(const std::vector<std::vector<CubeSample>>& block
 
 void CubeJudge::errors(std::span<const CubeSample> samples, std::span<float> rgba, std::span<float> result) const {
   m_toEngine.apply(rgba);
+  std::vector<Eigen::Vector3d> wanted;
+  std::vector<Eigen::Vector3d> light;
+  wanted.reserve(samples.size());
+  light.reserve(samples.size());
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    const Eigen::Vector3d light = Eigen::Map<const Eigen::Vector3f>(rgba.data() + 4 * k).cast<double>();
-    const Eigen::Vector3d lab = spectral::lab(m_xyzFromRgb * light / static_cast<double>(samples[k].gain), m_white);
-    const double error = spectral::deltaE2000(samples[k].lab.cast<double>(), lab);
-    result[k] = std::isfinite(error) ? static_cast<float>(error) : 0.0F;
+    wanted.push_back(samples[k].lab.cast<double>());
+    light.emplace_back(Eigen::Map<const Eigen::Vector3f>(rgba.data() + 4 * k).cast<double>() /
+                       static_cast<double>(samples[k].gain));
   }
+  std::vector<double> errors(samples.size());
+  m_differences.measure(wanted, light, errors);
+  std::transform(errors.begin(), errors.end(), result.begin(),
+                 [](double error) { return std::isfinite(error) ? static_cast<float>(error) : 0.0F; });
 }
 
 std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, const Signal& axes, const Signal& signal,

@@ -7,6 +7,7 @@
 #include "cube/cube_lattice.h"
 #include "metamer/ocio/pixel_processor.h"
 #include "metamer/ocio/signal.h"
+#include "metamer/sip/colour_differences.h"
 #include "metamer/sip/spectral_transform.h"
 
 namespace metamer::ocio {
@@ -34,15 +35,14 @@ std::vector<CubeSample> cubeSamples(const sip::SpectralTransform& transform, con
 class CubeJudge {
  public:
   CubeJudge(const sip::SpectralTransform& transform, const Signal& signal)
-      : m_toEngine(signal.toEngine), m_xyzFromRgb(transform.space().xyzFromRgb()), m_white(transform.whiteXyz()) {}
+      : m_toEngine(signal.toEngine), m_differences(transform.space().xyzFromRgb(), transform.whiteXyz()) {}
 
   /// Of the signals that stand in for the samples' targets. @param rgba  four floats a sample; overwritten
   void errors(std::span<const CubeSample> samples, std::span<float> rgba, std::span<float> result) const;
 
  private:
   PixelProcessor m_toEngine;
-  Eigen::Matrix3d m_xyzFromRgb;
-  Eigen::Vector3d m_white;
+  sip::ColourDifferences m_differences;
 };
 
 }  // namespace metamer::ocio

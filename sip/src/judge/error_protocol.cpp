@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "metamer/sip/band_weights.h"
+#include "metamer/sip/colour_differences.h"
 #include "metamer/sip/even_spread.h"
 #include "metamer/sip/probe_limits.h"
 #include "metamer/sip/spectral_locus.h"
@@ -113,13 +114,25 @@ ErrorProtocol::Report ErrorProtocol::measureAgainst(const SpectralTransform& ref
   return compare(resultsOf(reference), candidate);
 }
 
-Eigen::Vector3d ErrorProtocol::labOf(const Eigen::Vector3d& rgb) const {
-  return spectral::lab(m_xyzFromRgb * rgb, m_white);
+std::vector<Eigen::Vector3d> ErrorProtocol::labOf(const std::vector<Eigen::Vector3d>& rgb) const {
+  std::vector<Eigen::Vector3d> lab;
+  lab.reserve(rgb.size());
+  for (const Eigen::Vector3d& one : rgb) {
+    lab.push_back(spectral::lab(m_xyzFromRgb * one, m_white));
+  }
+  return lab;
 }
 
-double ErrorProtocol::errorOf(const Eigen::Vector3d& expectedLab, const Eigen::Vector3d& result) const {
-  const double error = spectral::deltaE2000(expectedLab, labOf(result));
-  return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
+std::vector<double> ErrorProtocol::errorsOf(const std::vector<Eigen::Vector3d>& expectedLab,
+                                            std::span<const float> rgba, double exposure) const {
+  std::vector<Eigen::Vector3d> results;
+  results.reserve(expectedLab.size());
+  for (std::size_t i = 0; i < expectedLab.size(); ++i) {
+    results.emplace_back(Eigen::Map<const Eigen::Vector3f>(rgba.data() + 4 * i).cast<double>() / exposure);
+  }
+  std::vector<double> errors(expectedLab.size());
+  ColourDifferences(m_xyzFromRgb, m_white).measure(expectedLab, results, errors);
+  return errors;
 }
 
 ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<float> rgba)>& candidate) const {
@@ -161,9 +174,9 @@ ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<f
       std::vector<Eigen::Vector3d> expected = colours;
       m_converged.apply(expected);
       candidate(pixels);
+      const std::vector<double> errors = errorsOf(labOf(expected), pixels, exposure);
       for (std::size_t i = 0; i < places.size(); ++i) {
-        const Eigen::Vector3d result = Eigen::Map<const Eigen::Vector3f>(pixels.data() + 4 * i).cast<double>();
-        const double error = errorOf(labOf(expected[i]), result / exposure);
+        const double error = errors[i];
         if (error > most) {
           most = error;
           best = places[i];
@@ -182,11 +195,7 @@ ErrorProtocol::Report ErrorProtocol::search(const std::function<void(std::span<f
 ErrorProtocol::Report ErrorProtocol::compare(const std::vector<Eigen::Vector3d>& expectedRgb,
                                              const std::function<void(std::span<float> rgba)>& candidate,
                                              std::vector<Peak>* peaks) const {
-  std::vector<Eigen::Vector3d> expected;
-  expected.reserve(expectedRgb.size());
-  for (const Eigen::Vector3d& rgb : expectedRgb) {
-    expected.push_back(labOf(rgb));
-  }
+  const std::vector<Eigen::Vector3d> expected = labOf(expectedRgb);
   Report report;
   std::vector<double> errors;
   std::vector<float> pixels(4 * m_probes.size());
@@ -196,12 +205,12 @@ ErrorProtocol::Report ErrorProtocol::compare(const std::vector<Eigen::Vector3d>&
       Eigen::Map<Eigen::Vector4f>(pixels.data() + 4 * i) << (exposure * m_probes[i].rgb).cast<float>(), 1.0F;
     }
     candidate(pixels);
+    const std::vector<double> here = errorsOf(expected, pixels, exposure);
     for (std::size_t i = 0; i < m_probes.size(); ++i) {
       if (exposure * m_probes[i].rgb.maxCoeff() > m_options.largestComponent) {
         continue;
       }
-      const Eigen::Vector3d result = Eigen::Map<const Eigen::Vector3f>(pixels.data() + 4 * i).cast<double>() / exposure;
-      const double error = errorOf(expected[i], result);
+      const double error = here[i];
       if (errors.empty() || error > report.max) {
         report.max = error;
         report.worstProbe = atStop(m_probes[i].name, stop);

@@ -9,64 +9,13 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <numbers>
 
 #include "vector/choose_kernel.h"
+#include "vector/double_functions-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace metamer::sip {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr std::size_t kMostDoubles = 8;
-using Double = hn::CappedTag<double, kMostDoubles>;
-using Long = hn::RebindToSigned<Double>;
-using V = hn::VFromD<Double>;
-
-/// Behind this the exponential is nothing, and its exponent still a normal one.
-constexpr double kFarthest = 700.0;
-/// ln 2 in two parts, the first short enough for its multiples here to be exact (Cody and Waite).
-constexpr double kLn2High = 0x1.62e42fee00000p-1;
-constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
-/// Adding this rounds to whole numbers, which then stand in the lowest bits.
-constexpr double kRounding = 0x1.8p52;
-constexpr int kExponentBias = 1023;
-constexpr int kMantissaBits = 52;
-
-/// exp(-t), 0 <= t. No fused operations: not every instruction set has them.
-HWY_INLINE V fade(V distance) {
-  const Double d;
-  const Long dl;
-  const V t = hn::Min(distance, hn::Set(d, kFarthest));
-  const V shifted = hn::Add(hn::Mul(t, hn::Set(d, -std::numbers::log2e)), hn::Set(d, kRounding));
-  const V whole = hn::Sub(shifted, hn::Set(d, kRounding));
-  const V high = hn::Add(t, hn::Mul(whole, hn::Set(d, kLn2High)));
-  const V rest = hn::Sub(hn::Neg(high), hn::Mul(whole, hn::Set(d, kLn2Low)));
-  // Taylor's series on |rest| <= ln 2 / 2.
-  constexpr std::array<double, 13> kInverseFactorials = {1.0 / 479001600.0,
-                                                         1.0 / 39916800.0,
-                                                         1.0 / 3628800.0,
-                                                         1.0 / 362880.0,
-                                                         1.0 / 40320.0,
-                                                         1.0 / 5040.0,
-                                                         1.0 / 720.0,
-                                                         1.0 / 120.0,
-                                                         1.0 / 24.0,
-                                                         1.0 / 6.0,
-                                                         0.5,
-                                                         1.0,
-                                                         1.0};
-  V power = hn::Set(d, kInverseFactorials[0]);
-  for (std::size_t i = 1; i < kInverseFactorials.size(); ++i) {
-    power = hn::Add(hn::Mul(power, rest), hn::Set(d, kInverseFactorials[i]));
-  }
-  const auto exponent = hn::ShiftLeft<kMantissaBits>(
-      hn::Add(hn::BitCast(dl, shifted), hn::Set(dl, static_cast<std::int64_t>(kExponentBias))));
-  return hn::Mul(power, hn::BitCast(d, exponent));
-}
 
 /// @param count   a multiple of kMostDoubles
 /// @param kernel  count numbers, and where kSlopes, twice as many more

@@ -77,9 +77,11 @@ class ErrorProtocol {
   /// @param peaks  filled, one a probe, unless null
   Report compare(const std::vector<Eigen::Vector3d>& expected,
                  const std::function<void(std::span<float> rgba)>& candidate, std::vector<Peak>* peaks = nullptr) const;
-  Eigen::Vector3d labOf(const Eigen::Vector3d& rgb) const;
-  /// CIEDE2000 of a result; infinite where it is no number.
-  double errorOf(const Eigen::Vector3d& expectedLab, const Eigen::Vector3d& result) const;
+  /// CIELAB of each colour.
+  std::vector<Eigen::Vector3d> labOf(const std::vector<Eigen::Vector3d>& rgb) const;
+  /// CIEDE2000 of RGBA pixels over their exposure; infinite where one is no number.
+  std::vector<double> errorsOf(const std::vector<Eigen::Vector3d>& expectedLab, std::span<const float> rgba,
+                               double exposure) const;
 
   Options m_options;
   SpectralTransform m_converged;
