@@ -127,6 +127,12 @@ class Report(LutgenTest):
         before, after = self.pictures(page)[:2]
         self.assertEqual(before.shape, after.shape)
         self.assertGreater(abs(before - after).mean(), 10)
+        # The page's own photographs come back as they are.
+        own = ROOT / "lutgen" / "pictures" / "report" / "page" / "astronaut.jpg"
+        there = np.asarray(Image.open(own).convert("RGB"), float)
+        self.assertEqual(before.shape, there.shape)
+        self.assertLess(np.abs(before - there).mean(), 2)
+        self.assertIn("'s view, which rolls highlights off", html.unescape(self.text))
 
     def test_a_picture_of_ones_own(self):
         (self.folder / "still.png").write_bytes(self.still())
@@ -142,14 +148,8 @@ class Report(LutgenTest):
         self.assertLess(abs(pictures[1] - applied).mean(), 2)
         self.assertGreater(abs(pictures[1] - shown).mean(), 10)
 
-    def test_scenes_roll_off_and_stills_stay(self):
-        """The page's own photographs come back as they are; light beyond a screen's white is told apart."""
-        page = self.page(recipe=QUICK)
-        own = ROOT / "lutgen" / "pictures" / "report" / "page" / "astronaut.jpg"
-        shown, there = self.pictures(page)[0], np.asarray(Image.open(own).convert("RGB"), float)
-        self.assertEqual(shown.shape, there.shape)
-        self.assertLess(np.abs(shown - there).mean(), 2)
-        self.assertIn("'s view, which rolls highlights off", html.unescape(self.text))
+    def test_scenes_roll_off(self):
+        """Light beyond a screen's white is told apart."""
         grey = np.repeat(np.repeat(np.float32([[0.18, 1, 2, 8]]), 16, 0), 16, 1)
         write_exr(self.folder / "steps.exr", np.repeat(grey[..., None], 3, axis=2))
         shown = self.pictures(self.page("--picture", "steps.exr", "--picture-space", "ACEScg", recipe=QUICK))[0][8, 8::16, 0]
@@ -206,9 +206,11 @@ class Report(LutgenTest):
     def test_noise_stays_small_and_names_are_escaped(self):
         noise = np.random.default_rng(1).integers(0, 256, (430, 700, 3), np.uint8)
         Image.fromarray(noise).save(self.folder / "<b>&.png")
-        page = self.page(*["--picture", "<b>&.png"] * 8, "--picture-space", "sRGB", recipe=QUICK.replace("night", "a<b>"))
+        count = 8 if os.environ.get("METAMER_LONG") else 2
+        page = self.page(*["--picture", "<b>&.png"] * count, "--picture-space", "sRGB", recipe=QUICK.replace("night", "a<b>"))
         self.readable(page)
-        self.assertEqual(len(self.pictures(page)), 16)
+        self.assertEqual(len(self.pictures(page)), 2 * count)
+        self.assertLess(len(self.text) / count, 3_000_000 / 8)
         self.assertEqual(max(self.pictures(page)[0].shape), 640)
         self.assertNotIn("<b>&", self.text)
         self.assertIn("<h1>a&lt;b&gt;</h1>", self.text)

@@ -8,13 +8,17 @@ that colour-science also carries, which it reads from its own copy. Random input
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import warnings
 from importlib import metadata
 from pathlib import Path
 from typing import Any, Iterable
 
-import numpy as np
+# NumPy's sums differ in their last digits with the number of its threads.
+os.environ["OPENBLAS_NUM_THREADS"] = "1"
+
+import numpy as np  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parent
 PINNED = {"colour-science": "0.4.7", "opencolorio": "2.6.0"}

@@ -20,10 +20,15 @@ def run(*command, **options):
 
 
 class Types(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cache = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cache.cleanup)
+        cls.cache = cache.name
+
     def check(self, *files):
         environment = dict(os.environ, MYPYPATH=str(PACKAGE.parent)) if "site-packages" not in PACKAGE.parts else None
-        with tempfile.TemporaryDirectory() as cache:
-            return run("-m", "mypy", "--strict", "--cache-dir", cache, *map(str, files), env=environment, cwd=cache)
+        return run("-m", "mypy", "--strict", "--cache-dir", self.cache, *map(str, files), env=environment, cwd=self.cache)
 
     def test_examples(self):
         result = self.check(*EXAMPLES)

@@ -16,7 +16,7 @@ constexpr double kSignificance = 0.001;
 
 int seeds() {
   const char* isLong = std::getenv("METAMER_LONG");  // NOLINT(concurrency-mt-unsafe)
-  return isLong != nullptr && std::string(isLong) == "1" ? 400 : 16;
+  return isLong != nullptr && std::string(isLong) == "1" ? 400 : 8;
 }
 
 /// Mean over seeds, its standard error, and the mean of the stated variance.

@@ -18,17 +18,31 @@ namespace {
 
 using spectral::testLibrary;
 
-/// What Resolve defines in front of the text, as far as the text asks; then the text, its table as an array.
-std::string program(const std::string& words, const std::string& text) {
-  constexpr const char* kTable = "DEFINE_CUBE_LUT(metamerTable)\n{\nLUT_3D_SIZE 65\n";
-  const std::size_t table = text.find(kTable);
-  const std::size_t end = text.find("}\n", table + std::string(kTable).size());
-  std::stringstream numbers(text.substr(table + std::string(kTable).size(), end - table - std::string(kTable).size()));
+/// The text of a .dctl: its numbers, and what stands before and behind them.
+struct DctlParts {
+  std::string before, numbers, behind;
+
+  explicit DctlParts(const std::string& text) {
+    const std::string opening = "DEFINE_CUBE_LUT(metamerTable)\n{\nLUT_3D_SIZE 65\n";
+    const std::size_t table = text.find(opening);
+    const std::size_t end = text.find("}\n", table + opening.size());
+    before = text.substr(0, table);
+    numbers = text.substr(table + opening.size(), end - table - opening.size());
+    behind = text.substr(end + 2);
+  }
+};
+
+/// What Resolve defines in front of the text, as far as the text asks; then the text, its table as an array: of its
+/// first numbers, which is enough for a compiler's word on all else.
+std::string program(const std::string& words, const std::string& text, int mostNumbers) {
+  const DctlParts parts(text);
+  std::stringstream numbers(parts.numbers);
   std::string array = "__CONSTANT__ float metamerTable[] = {";
-  for (std::string number; numbers >> number;) {
+  int count = 0;
+  for (std::string number; count < mostNumbers && numbers >> number; ++count) {
     array += number + "f,\n";
   }
-  return words + text.substr(0, table) + array + "};\n" + text.substr(end + 2);
+  return words + parts.before + array + "};\n" + parts.behind;
 }
 
 constexpr const char* kSlider =
@@ -53,7 +67,13 @@ static float3 make_float3(float x, float y, float z) { return {x, y, z}; }
 #define __CONSTANT__ static const
 #define _powf(x, y) std::pow((x), (y))
 )";
-  return program(words + kSlider + kLookUp, text) + kNode + R"(
+  // The table is filled by whoever loads this: a compiler takes seconds for as many numbers.
+  const DctlParts parts(text);
+  return words + kSlider + kLookUp + parts.before + R"(
+static float metamerTable[3 * 65 * 65 * 65];
+extern "C" float* table() { return metamerTable; }
+)" + parts.behind +
+         kNode + R"(
 extern "C" void apply(float* rgba, long count) {
   for (long i = 0; i < 4 * count; i += 4) {
     const float3 result = transform(1, 1, 0, 0, rgba[i], rgba[i + 1], rgba[i + 2]);
@@ -65,14 +85,17 @@ extern "C" void apply(float* rgba, long count) {
 )";
 }
 
-std::string asOpenCl(const std::string& text) {
+constexpr int kAllNumbers = 3 * 65 * 65 * 65;
+constexpr int kFewNumbers = 3000;
+
+std::string asOpenCl(const std::string& text, int mostNumbers) {
   const std::string words = R"(
 static float3 make_float3(float x, float y, float z) { return (float3)(x, y, z); }
 #define __DEVICE__ static
 #define __CONSTANT__ __constant
 #define _powf(x, y) pow((x), (y))
 )";
-  return program(words + kSlider + kLookUp, text) + kNode +
+  return program(words + kSlider + kLookUp, text, mostNumbers) + kNode +
          "__kernel void entry(__global float* p) { p[0] = transform(1, 1, 0, 0, p[0], p[1], p[2]).x; }\n";
 }
 
@@ -85,7 +108,7 @@ static __device__ float3 make_float3(float x, float y, float z) { return float3{
 #define __CONSTANT__ static __attribute__((constant)) const
 static __device__ float _powf(float x, float y) { return x * y; }
 )";
-  return program(words + kSlider + kLookUp, text) + kNode +
+  return program(words + kSlider + kLookUp, text, kFewNumbers) + kNode +
          "__attribute__((global)) void entry(float* p) { p[0] = transform(1, 1, 0, 0, p[0], p[1], p[2]).x; }\n";
 }
 
@@ -94,6 +117,7 @@ bool runs(const std::string& command) {
 }
 
 using Apply = void(float* rgba, long count);
+using Table = float*();
 
 class DctlTest : public testing::Test {
  protected:
@@ -109,7 +133,17 @@ class DctlTest : public testing::Test {
       return nullptr;
     }
     void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-    return handle == nullptr ? nullptr : reinterpret_cast<Apply*>(dlsym(handle, "apply"));
+    if (handle == nullptr) {
+      return nullptr;
+    }
+    float* const table = reinterpret_cast<Table*>(dlsym(handle, "table"))();
+    std::stringstream numbers(DctlParts(text).numbers);
+    int count = 0;
+    for (float number = 0.0F; count < kAllNumbers && numbers >> number; ++count) {
+      table[count] = number;
+    }
+    EXPECT_EQ(count, kAllNumbers);
+    return reinterpret_cast<Apply*>(dlsym(handle, "apply"));
   }
 
   TemporaryFolder m_folder;
@@ -151,14 +185,14 @@ TEST_F(DctlTest, IsOpenClAndCudaToo) {
   const BakedText baked =
       bakeShaderText(sip::readRecipe(std::string(METAMER_DATA_FOLDER) + "/../demo/recipes/day_to_tungsten_000.yaml"),
                      testLibrary(), *findShaderFormat("", "dctl"));
-  const std::string openCl = write("look.cl", asOpenCl(baked.text));
+  const std::string openCl = write("look.cl", asOpenCl(baked.text, kAllNumbers));
   EXPECT_TRUE(runs("clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only " + openCl));
   const std::string cuda = write("look.cu", asCuda(baked.text));
   EXPECT_TRUE(
       runs("clang -x cuda --cuda-device-only -nocudainc -nocudalib --cuda-gpu-arch=sm_50 -fsyntax-only " + cuda));
   // And what is wrong is seen.
   EXPECT_FALSE(runs("clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only " +
-                    write("wrong.cl", asOpenCl(baked.text) + "float wrong(float3 a) { return a; }\n")));
+                    write("wrong.cl", asOpenCl(baked.text, kFewNumbers) + "float wrong(float3 a) { return a; }\n")));
 }
 
 }  // namespace
