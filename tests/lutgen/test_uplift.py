@@ -69,6 +69,18 @@ class Uplift(LutgenTest):
         self.assertEqual(halves.dtype, np.float16)
         floats = stacked(self.spectra("--method", "jakob")[1], BANDS)
         np.testing.assert_array_equal(floats.astype(np.float16), halves)
+        for method in ("smooth", "natural", "skin"):
+            written = {}
+            for kind in ("float", "half"):
+                run = lutgen("uplift", "a.exr", "-o", "o.exr", "-d", kind, "--method", method, folder=self.folder)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                written[kind] = stacked(read(self.folder / "o.exr")[1], BANDS).astype(np.float32)
+            floats, halves = written["float"], written["half"]
+            # A table, and a rounding to halves: 4.9e-4 above 1.
+            self.assertLess(np.quantile(np.abs(halves - floats).max(axis=-1), 0.99), 1.25e-3, method)
+            self.assertLess(np.abs(halves - floats).max(), 2e-3, method)
+            self.assertFalse(np.array_equal(floats.astype(np.float16), halves.astype(np.float16)), method)
+        floats = stacked(self.spectra("--method", "jakob")[1], BANDS)
         for compression in ("none", "zips", "piz", "rle"):
             other = stacked(self.spectra("--method", "jakob", "--compression", compression)[1], BANDS)
             np.testing.assert_array_equal(other, floats)

@@ -13,6 +13,7 @@
 #include "exr/exr_strips.h"
 #include "library.h"
 #include "metamer/sip/scene_uplift.h"
+#include "metamer/sip/tabulated_uplift.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
@@ -226,6 +227,12 @@ void uplift(const UpliftOptions& options) {
   }
   const Source source = sourceOf(options, library);
   const ExrType type = options.type == "half" ? ExrType::Half : ExrType::Float;
+  const std::vector<std::string>& published = spectral::upliftMethodNames();
+  if (type == ExrType::Half &&
+      std::find(published.begin(), published.end(), spectral::lowerCase(options.method)) == published.end()) {
+    // A scene's spectra cost a solve each; a table's are as near as half floats are.
+    method = sip::tabulated(std::move(method));
+  }
   UpliftedPicture picture(source, *method, library.colourSpace("Rec.709").linear, wavelengths, type);
 
   ExrStrips strips;
