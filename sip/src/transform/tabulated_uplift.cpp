@@ -101,7 +101,7 @@ class TabulatedUplift : public spectral::Uplift {
   const float* at(int i, int j) const {
     const int row = i / kTile;
     const int column = j / kTile;
-    Tile& tile = m_tiles[static_cast<std::size_t>(row * kTiles + column)];
+    Tile& tile = m_tiles[static_cast<std::size_t>(row) * kTiles + static_cast<std::size_t>(column)];
     const float* ready = tile.ready.load(std::memory_order_acquire);
     if (ready == nullptr) {
       std::call_once(tile.once, [&] { fill(tile, row * kTile, column * kTile); });

@@ -107,6 +107,7 @@ TEST(TabulatedUplift, ManyThreadsGetTheSameSpectra) {
   const auto shared = tabulated(makeUplift("smooth", testLibrary()));
   std::vector<Eigen::MatrixXd> found(4);
   std::vector<std::thread> threads;
+  threads.reserve(found.size());
   for (Eigen::MatrixXd& own : found) {
     threads.emplace_back([&] { own = spectraOf(*shared, all); });
   }
