@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "wavelengths/lanes.h"
@@ -26,7 +28,8 @@ class GelSheet {
     const Faces faces = facesAt(cosine);
     Lanes<C> result;
     for (int k = 0; k < C; ++k) {
-      const auto cell = static_cast<std::size_t>(wavelengths.cell[static_cast<std::size_t>(k)] + kUltravioletCells);
+      const std::int32_t place = wavelengths.cell[static_cast<std::size_t>(k)] + kUltravioletCells;
+      const auto cell = static_cast<std::size_t>(place);
       // What passes the matter once, along the slanting way.
       const float within = std::exp(m_logWithin[cell] * faces.way);
       result[k] = 0.5F * (passed(faces.across, within) + passed(faces.parallel, within));
