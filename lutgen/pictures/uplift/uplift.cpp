@@ -227,11 +227,9 @@ void uplift(const UpliftOptions& options) {
   }
   const Source source = sourceOf(options, library);
   const ExrType type = options.type == "half" ? ExrType::Half : ExrType::Float;
-  const std::vector<std::string>& published = spectral::upliftMethodNames();
-  if (type == ExrType::Half &&
-      std::find(published.begin(), published.end(), spectral::lowerCase(options.method)) == published.end()) {
+  if (type == ExrType::Half && sip::isSceneUplift(options.method)) {
     // A scene's spectra cost a solve each; a table's are as near as half floats are.
-    method = sip::tabulated(std::move(method));
+    method = sip::tabulated(std::move(method), library.colourSpace("ACES2065-1").linear);
   }
   UpliftedPicture picture(source, *method, library.colourSpace("Rec.709").linear, wavelengths, type);
 

@@ -221,7 +221,7 @@ namespace {
 using Differences = void(const double*, std::size_t, std::size_t, const double*, double*);
 
 /// Lanes of the longest vector.
-constexpr std::size_t kLanes = 8;
+constexpr std::size_t kLanes = HWY_NAMESPACE::kMostDoubles;
 /// Colours that are measured at once.
 constexpr std::size_t kBlock = 8 * kLanes;
 constexpr std::size_t kPlanes = 6;

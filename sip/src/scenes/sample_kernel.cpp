@@ -53,7 +53,7 @@ namespace {
 
 using KernelAt = void(const double*, const double*, std::size_t, const double*, double*);
 
-constexpr Eigen::Index kPadding = 8;
+constexpr Eigen::Index kPadding = HWY_NAMESPACE::kMostDoubles;
 
 }  // namespace
 

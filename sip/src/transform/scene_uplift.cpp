@@ -24,6 +24,10 @@ constexpr std::size_t kTogether = 64;
 
 constexpr std::array<const char*, 3> kScenes = {"smooth", "natural", "skin"};
 
+std::string plainName(const std::string& name) {
+  return spectral::lowerCase(spectral::trimmed(name));
+}
+
 std::vector<double> bandCentres() {
   std::vector<double> centres;
   for (int band = 0; band < kBands; ++band) {
@@ -85,14 +89,18 @@ const std::vector<std::string>& upliftNames() {
   return names;
 }
 
+bool isSceneUplift(const std::string& name) {
+  return std::find(kScenes.begin(), kScenes.end(), plainName(name)) != kScenes.end();
+}
+
 std::unique_ptr<spectral::Uplift> makeUplift(const std::string& name, const spectral::DataLibrary& library,
                                              const std::optional<spectral::UpliftWeights>& weights) {
-  const std::string plain = spectral::lowerCase(spectral::trimmed(name));
+  const std::string plain = plainName(name);
   const std::vector<std::string>& names = upliftNames();
   if (std::find(names.begin(), names.end(), plain) == names.end()) {
     throw InputError("", "uplift", name, "must be one of: " + spectral::joined(names));
   }
-  if (std::find(kScenes.begin(), kScenes.end(), plain) == kScenes.end()) {
+  if (!isSceneUplift(plain)) {
     return spectral::makeUplift(spectral::upliftMethodNamed(plain), library, weights);
   }
   if (weights) {

@@ -20,28 +20,19 @@ constexpr int kSteps = 960;
 constexpr int kTile = 8;
 constexpr int kTiles = kSteps / kTile + 1;
 
-/// SMPTE ST 2065-1: chromaticities of AP0's primaries, as X, Y and Z of a sum of one.
-Eigen::Matrix3d corners() {
-  Eigen::Matrix3d xyz;
-  xyz << 0.7347, 0.0, 0.0001,  //
-      0.2653, 1.0, -0.0770,    //
-      0.0, 0.0, 1.0769;
-  return xyz;
-}
-
-/// Components of a colour on AP0's primaries, scaled so that Rec.709's white is (1, 1, 1).
-Eigen::Matrix3d componentsFromRgb(const Eigen::Matrix3d& xyzFromRgb) {
-  const Eigen::Matrix3d unscaled = corners().inverse() * xyzFromRgb;
+/// Components of a colour in a space, scaled so that Rec.709's white is (1, 1, 1).
+Eigen::Matrix3d componentsFromRgb(const spectral::RgbSpace& space, const Eigen::Matrix3d& xyzFromRgb) {
+  const Eigen::Matrix3d unscaled = space.rgbFromXyz() * xyzFromRgb;
   return unscaled.rowwise().sum().cwiseInverse().asDiagonal() * unscaled;
 }
 
 class TabulatedUplift : public spectral::Uplift {
  public:
-  explicit TabulatedUplift(std::unique_ptr<spectral::Uplift> exact)
+  TabulatedUplift(std::unique_ptr<spectral::Uplift> exact, const spectral::RgbSpace& space)
       : Uplift(exact->wavelengthsNm(), exact->xyzFromRgb()),
         m_exact(std::move(exact)),
         m_bands(m_exact->wavelengthsNm().size()),
-        m_componentsFromRgb(componentsFromRgb(m_exact->xyzFromRgb())),
+        m_componentsFromRgb(componentsFromRgb(space, m_exact->xyzFromRgb())),
         m_rgbFromComponents(m_componentsFromRgb.inverse()),
         m_tiles(static_cast<std::size_t>(kTiles) * kTiles) {}
 
@@ -135,8 +126,8 @@ class TabulatedUplift : public spectral::Uplift {
 
 }  // namespace
 
-std::unique_ptr<spectral::Uplift> tabulated(std::unique_ptr<spectral::Uplift> exact) {
-  return std::make_unique<TabulatedUplift>(std::move(exact));
+std::unique_ptr<spectral::Uplift> tabulated(std::unique_ptr<spectral::Uplift> exact, const spectral::RgbSpace& space) {
+  return std::make_unique<TabulatedUplift>(std::move(exact), space);
 }
 
 }  // namespace metamer::sip

@@ -41,8 +41,6 @@ class LightChoice {
       choices[i] = {entry, m_lights.probability(entry)};
     }
   }
-  /// Whether the points matter to choose().
-  bool isByPlace() const { return m_branches.has_value(); }
   static constexpr std::size_t kMostTogether = LightBranches::kMostTogether;
   /// Of choosing an entry.
   float probability(const LitPoint& point, std::uint32_t entry) const {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -70,6 +71,15 @@ TEST(SceneUplift, IsWhatARecipesTransformTakes) {
   const Vector3d skin = kColours[0];
   EXPECT_GT((spectrumOf(upliftOf("natural"), skin) - spectrumOf(upliftOf("smooth"), skin)).norm(), 0.05);
   EXPECT_GT((spectrumOf(upliftOf("natural"), skin) - spectrumOf(upliftOf("skin"), skin)).norm(), 0.01);
+}
+
+TEST(SceneUplift, ScenesAreToldFromPublishedMethods) {
+  for (const std::string& name : upliftNames()) {
+    const bool isScene = std::find(kScenes.begin(), kScenes.end(), name) != kScenes.end();
+    EXPECT_EQ(isSceneUplift(name), isScene) << name;
+    EXPECT_EQ(isSceneUplift(" " + name + " "), isScene) << name;
+  }
+  EXPECT_TRUE(isSceneUplift("Natural"));
 }
 
 TEST(SceneUplift, EveryColourHasItsOwnSpectrumAtAnyExposure) {

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <random>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -51,10 +53,14 @@ Eigen::MatrixXd spectraOf(const spectral::Uplift& uplift, const std::vector<Vect
   return spectra;
 }
 
+std::unique_ptr<spectral::Uplift> tableOf(const std::string& name) {
+  return tabulated(makeUplift(name, testLibrary()), testLibrary().colourSpace("ACES2065-1").linear);
+}
+
 TEST(TabulatedUplift, DeviatesByAboutAHalfFloatsStep) {
   for (const char* const name : {"smooth", "natural"}) {
     const auto exact = makeUplift(name, testLibrary());
-    const auto table = tabulated(makeUplift(name, testLibrary()));
+    const auto table = tableOf(name);
     const std::vector<Vector3d> all = colours();
     const Eigen::MatrixXd difference = spectraOf(*table, all) - spectraOf(*exact, all);
     std::vector<double> largest;
@@ -73,7 +79,7 @@ TEST(TabulatedUplift, DeviatesByAboutAHalfFloatsStep) {
 
 TEST(TabulatedUplift, MeetsTheColourAndGreysExactly) {
   const auto exact = makeUplift("natural", testLibrary());
-  const auto table = tabulated(makeUplift("natural", testLibrary()));
+  const auto table = tableOf("natural");
   // Sums over the spectrum that give the colour: of any spectra that were interpolated alike.
   std::vector<Vector3d> all = colours();
   all.resize(2000);
@@ -93,7 +99,7 @@ TEST(TabulatedUplift, MeetsTheColourAndGreysExactly) {
 
 TEST(TabulatedUplift, OutsideItsPlaneColoursAreSolved) {
   const auto exact = makeUplift("natural", testLibrary());
-  const auto table = tabulated(makeUplift("natural", testLibrary()));
+  const auto table = tableOf("natural");
   const std::vector<Vector3d> outside = {{1, -1, 0}, {-1, -1, -1}, {0, 0, -0.3}, {1e-30, -1e-30, 0}};
   EXPECT_EQ(spectraOf(*table, outside), spectraOf(*exact, outside));
   // The corners of Rec.709 and what lies between them stay within.
@@ -103,8 +109,8 @@ TEST(TabulatedUplift, OutsideItsPlaneColoursAreSolved) {
 
 TEST(TabulatedUplift, ManyThreadsGetTheSameSpectra) {
   const std::vector<Vector3d> all = colours();
-  const Eigen::MatrixXd wanted = spectraOf(*tabulated(makeUplift("smooth", testLibrary())), all);
-  const auto shared = tabulated(makeUplift("smooth", testLibrary()));
+  const Eigen::MatrixXd wanted = spectraOf(*tableOf("smooth"), all);
+  const auto shared = tableOf("smooth");
   std::vector<Eigen::MatrixXd> found(4);
   std::vector<std::thread> threads;
   threads.reserve(found.size());

@@ -15,6 +15,9 @@ namespace metamer::sip {
 /// "smooth", "natural" and "skin".
 const std::vector<std::string>& upliftNames();
 
+/// Whether a name, in whatever letters, is one of the engine's scenes.
+bool isSceneUplift(const std::string& name);
+
 /// An uplift by any of these names. A scene's gives a colour the spectrum that a recipe with this scene and daylight
 /// gives it: at 380, 385, ..., 780 nm, homogeneous of degree one, so that colours above white have values above 1;
 /// below 0 only where no reflectance has the colour. It meets the colour by the engine's integrals.
