@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -115,9 +117,18 @@ std::vector<YamlValue> YamlValue::items() const {
 }
 
 std::vector<double> YamlValue::numbers(double low, double high) const {
+  if (!isSequence()) {
+    throw error("must be a list");
+  }
   std::vector<double> result;
-  for (const YamlValue& item : items()) {
-    result.push_back(item.number(low, high));
+  result.reserve(m_node->items.size());
+  for (std::size_t i = 0; i < m_node->items.size(); ++i) {
+    const YamlNode& item = m_node->items[i];
+    const auto value = finiteNumber(item);
+    if (!value || !(*value >= low && *value <= high)) {
+      throw part(item, m_field + "[" + std::to_string(i) + "]").error(rangeText(low, high));
+    }
+    result.push_back(*value);
   }
   return result;
 }
@@ -128,7 +139,7 @@ YamlMap::YamlMap(const YamlValue& value, std::initializer_list<const char*> keys
     throw error("must be a map of " + joined(known) +
                 (m_field.empty() ? ", such as '" + m_document->form.versionKey() + ": 1'" : std::string()));
   }
-  std::vector<std::string> seen;
+  std::set<std::string_view> seen;
   for (const YamlMember& member : m_node->members) {
     const auto complaint = [&](const std::string& remedy) {
       return InputError(place(member.line, member.column), "key", named(member.key), remedy);
@@ -141,10 +152,9 @@ YamlMap::YamlMap(const YamlValue& value, std::initializer_list<const char*> keys
       throw complaint("unknown; " + (near.empty() ? std::string() : "did you mean '" + near.front() + "'? ") +
                       "the keys here are " + joined(known));
     }
-    if (std::find(seen.begin(), seen.end(), member.key) != seen.end()) {
+    if (!seen.insert(member.key).second) {
       throw complaint("is given twice; keep one");
     }
-    seen.push_back(member.key);
   }
 }
 
