@@ -42,8 +42,11 @@ class Rounds {
       m_multiplier[k] = zero();
     }
     m_most = m_mostWrong = m_clamped = zero();
+    const V price = hn::Set(m_d, m_system.price);
     for (int b = 0; b < m_count; ++b) {
-      m_clamped = hn::Add(m_clamped, given(m_lanes.clamp, b));
+      const V clamp = hn::IfThenElseZero(hn::Lt(given(m_lanes.spectrum, b), zero()), price);
+      take(m_lanes.clamp, b, clamp);
+      m_clamped = hn::Add(m_clamped, clamp);
     }
     if constexpr (kHasPrior) {
       for (int b = 0; b < m_count; ++b) {

@@ -30,7 +30,7 @@ struct NewtonLanes {
   Rows<3> held;                        ///< the response that the spectrum is held to: c, + A P where relaxed
   Rows<kConvergedBandCount> prior;     ///< P, where there is one
   Rows<kConvergedBandCount> spectrum;  ///< in: where to start, which is never worsened; out: R
-  Rows<kConvergedBandCount> clamp;     ///< 0, or the price. in: of the bands that it has below zero; out: of R's
+  Rows<kConvergedBandCount> clamp;     ///< out: 0, or the price of the bands that R has below zero
   Rows<1> isUsed;                      ///< 0 for an idle lane, else 1
   Rows<1> rounds;                      ///< out: systems solved
   bool hasPrior = false;

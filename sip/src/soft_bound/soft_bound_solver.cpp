@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 
 #include "soft_bound/newton_lanes.h"
+#include "soft_bound/smooth_start.h"
 
 namespace metamer::sip {
 
 namespace {
 
 using Eigen::Array4d;
+using Array8d = Eigen::Array<double, 8, 1>;
 using Eigen::Index;
 
 std::size_t at(int band) {
@@ -51,6 +54,16 @@ BandTriple smoothest(const Eigen::Matrix3Xd& weights, double slack) {
   return spectrum;
 }
 
+/// Three lanes of what an elimination gives, a row a band.
+template <typename Lanes>
+BandTriple columns(const std::array<Lanes, kConvergedBandCount>& answers, int bandCount, Index first) {
+  BandTriple triple(bandCount, 3);
+  for (int b = 0; b < bandCount; ++b) {
+    triple.row(b) = answers[at(b)].template segment<3>(first).matrix().transpose();
+  }
+  return triple;
+}
+
 }  // namespace
 
 /// The tridiagonal system with some bands clamped, at least one, solved for several loads at once.
@@ -79,26 +92,27 @@ struct SoftBoundSolver::Elimination {
   /// @param upTo(b)    sum of the loads of bands 0 ... b, b <= first
   /// @param behind(b)  sum of the loads of bands b ... B - 1, b >= last
   /// @param all        sum of all loads
-  template <typename Load, typename UpTo, typename Behind>
-  void solve(const Load& load, const UpTo& upTo, const Behind& behind, const Array4d& all,
-             std::array<Array4d, kConvergedBandCount>& result) const {
+  /// @tparam Lanes     an array of so many loads
+  template <typename Lanes, typename Load, typename UpTo, typename Behind>
+  void solve(const Load& load, const UpTo& upTo, const Behind& behind, const Lanes& all,
+             std::array<Lanes, kConvergedBandCount>& result) const {
     if (first == last) {
       result[at(first)] = all * inversePivot[at(first)];
     } else {
-      Array4d carried = upTo(first);
+      Lanes carried = upTo(first);
       result[at(first)] = carried;
       for (int b = first + 1; b < last; ++b) {
         carried = load(b) + carried * inversePivot[at(b - 1)];
         result[at(b)] = carried;
       }
-      Array4d value = (behind(last) + carried * inversePivot[at(last - 1)]) * inversePivot[at(last)];
+      Lanes value = (behind(last) + carried * inversePivot[at(last - 1)]) * inversePivot[at(last)];
       result[at(last)] = value;
       for (int b = last - 1; b >= first; --b) {
         value = (result[at(b)] + value) * inversePivot[at(b)];
         result[at(b)] = value;
       }
     }
-    Array4d value = result[at(first)];
+    Lanes value = result[at(first)];
     for (int b = first - 1; b >= 0; --b) {
       value += upTo(b);
       result[at(b)] = value;
@@ -169,44 +183,41 @@ void SoftBoundSolver::solve(std::span<Problem> problems) const {
 }
 
 bool SoftBoundSolver::isSmoothEnough(Problem& problem) const {
-  Eigen::Map<Eigen::VectorXd> spectrum(problem.reflectance, bandCount());
-  spectrum.noalias() = m_unclamped * problem.tristimulus;
-  if (problem.prior != nullptr) {
-    spectrum += Eigen::Map<const Eigen::VectorXd>(problem.prior, bandCount());
-  }
   problem.clamped.reset();
-  if (spectrum.minCoeff() >= -kNothing * spectrum.cwiseAbs().maxCoeff()) {
-    return true;
-  }
-  for (int b = 0; b < bandCount(); ++b) {
-    problem.clamped[at(b)] = spectrum[b] < 0.0;
-  }
-  return false;
+  return SmoothStart{m_unclamped.data(), bandCount()}(problem.tristimulus.data(), problem.prior, problem.reflectance);
 }
 
 void SoftBoundSolver::fill(NewtonLanes& lanes, std::span<Problem* const> group) const {
   lanes.hasPrior = group.front()->prior != nullptr;
-  const std::size_t laneCount = group.size() <= NewtonLanes::kFew ? NewtonLanes::kFew : NewtonLanes::kLanes;
-  for (std::size_t lane = 0; lane < laneCount; ++lane) {
+  constexpr std::size_t kLanes = NewtonLanes::kLanes;
+  // Idle lanes repeat the last problem: what is computed there is not looked at.
+  std::array<const Problem*, kLanes> problems;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    problems[lane] = group[std::min(lane, group.size() - 1)];
     lanes.isUsed[lane] = lane < group.size() ? 1.0 : 0.0;
-    // Idle lanes repeat the last problem: what is computed there is not looked at.
-    const Problem& problem = *group[std::min(lane, group.size() - 1)];
+    const Problem& problem = *problems[lane];
     Eigen::Vector3d held = problem.tristimulus;
     if (problem.prior != nullptr && m_slack > 0.0) {
       held += m_weights * Eigen::Map<const Eigen::VectorXd>(problem.prior, bandCount());
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      lanes.tristimulus[k * NewtonLanes::kLanes + lane] = problem.tristimulus[static_cast<Index>(k)];
-      lanes.held[k * NewtonLanes::kLanes + lane] = held[static_cast<Index>(k)];
+      lanes.tristimulus[k * kLanes + lane] = problem.tristimulus[static_cast<Index>(k)];
+      lanes.held[k * kLanes + lane] = held[static_cast<Index>(k)];
     }
+  }
+  const auto sideBySide = [&](auto rowOf, auto& rows) {
+    std::array<const double*, kLanes> from;
+    std::transform(problems.begin(), problems.end(), from.begin(), rowOf);
+    double* to = rows.data();
     for (int b = 0; b < bandCount(); ++b) {
-      const std::size_t place = at(b) * NewtonLanes::kLanes + lane;
-      lanes.clamp[place] = problem.reflectance[b] < 0.0 ? m_boundPrice : 0.0;
-      lanes.spectrum[place] = problem.reflectance[b];
-      if (problem.prior != nullptr) {
-        lanes.prior[place] = problem.prior[b];
+      for (const double* const row : from) {
+        *to++ = row[b];
       }
     }
+  };
+  sideBySide([](const Problem* problem) { return problem->reflectance; }, lanes.spectrum);
+  if (lanes.hasPrior) {
+    sideBySide([](const Problem* problem) { return problem->prior; }, lanes.prior);
   }
 }
 
@@ -218,12 +229,34 @@ void SoftBoundSolver::solveTogether(std::span<Problem* const> group) const {
   for (std::size_t lane = 0; lane < group.size(); ++lane) {
     Problem& problem = *group[lane];
     problem.rounds = static_cast<int>(lanes.rounds[lane]);
-    for (int b = 0; b < bandCount(); ++b) {
-      const std::size_t place = at(b) * NewtonLanes::kLanes + lane;
-      problem.reflectance[b] = lanes.spectrum[place];
-      problem.clamped[at(b)] = lanes.clamp[place] > 0.0;
+    const double* spectrum = lanes.spectrum.data() + lane;
+    const double* clamp = lanes.clamp.data() + lane;
+    constexpr int kWord = 64;  // bits that are gathered before they are put among the others
+    for (int first = 0; first < bandCount(); first += kWord) {
+      std::uint64_t word = 0;
+      const int count = std::min(kWord, bandCount() - first);
+      for (int b = 0; b < count; ++b, spectrum += NewtonLanes::kLanes, clamp += NewtonLanes::kLanes) {
+        problem.reflectance[first + b] = *spectrum;
+        word |= static_cast<std::uint64_t>(*clamp > 0.0) << b;
+      }
+      problem.clamped |= ClampedBands(word) << at(first);
     }
   }
+}
+
+Eigen::Matrix3d seen(const Eigen::Matrix3Xd& weights, const BandTriple& spectra) {
+  Eigen::Array3d first = Eigen::Array3d::Zero();
+  Eigen::Array3d second = first;
+  Eigen::Array3d third = first;
+  for (Index b = 0; b < weights.cols(); ++b) {
+    const Eigen::Array3d weight = weights.col(b);
+    first += weight * spectra(b, 0);
+    second += weight * spectra(b, 1);
+    third += weight * spectra(b, 2);
+  }
+  Eigen::Matrix3d sums;
+  sums << first, second, third;
+  return sums;
 }
 
 BandTriple SoftBoundSolver::derivative(const ClampedBands& clamped, const BandTriple* priorSlope) const {
@@ -232,36 +265,37 @@ BandTriple SoftBoundSolver::derivative(const ClampedBands& clamped, const BandTr
   }
   const int count = bandCount();
   const Elimination elimination(*this, clamped);
-  std::array<Array4d, kConvergedBandCount> answers;
-  elimination.solve([&](int b) { return m_load[at(b)]; }, [&](int b) { return m_loadUpTo[at(b)]; },
-                    [&](int b) { return m_loadBehind[at(b)]; }, m_loadUpTo[at(count - 1)], answers);
-  BandTriple pulled(count, 3);
-  for (int b = 0; b < count; ++b) {
-    pulled.row(b) = answers[at(b)].head<3>().matrix().transpose();
-  }
-  const Eigen::Matrix3d inverse = (m_weights * pulled + m_slack * Eigen::Matrix3d::Identity()).inverse();
   if (priorSlope == nullptr) {
-    return pulled * inverse;
+    std::array<Array4d, kConvergedBandCount> answers;
+    elimination.solve([&](int b) { return m_load[at(b)]; }, [&](int b) { return m_loadUpTo[at(b)]; },
+                      [&](int b) { return m_loadBehind[at(b)]; }, m_loadUpTo[at(count - 1)], answers);
+    const BandTriple pulled = columns(answers, count, 0);
+    const Eigen::Matrix3d inverse = (seen(m_weights, pulled) + m_slack * Eigen::Matrix3d::Identity()).inverse();
+    return pulled.lazyProduct(inverse);
   }
-  const auto lanes = [](const Eigen::RowVector3d& row) {
-    Array4d all = Array4d::Zero();
-    all.head<3>() = row.transpose().array();
+  // Both at once, as each waits long for its own last band.
+  const BandTriple& p = *priorSlope;
+  const auto bend = [&](int b, int other) -> Eigen::RowVector3d {
+    return other >= 0 && other < count ? p.row(b) - p.row(other) : Eigen::RowVector3d::Zero().eval();
+  };
+  const auto lanes = [](const Array4d& load, const Eigen::RowVector3d& bent) {
+    Array8d all;
+    all << load, bent.transpose().array(), 0.0;
     return all;
   };
-  const BandTriple& p = *priorSlope;
-  elimination.solve([&](int b) { return lanes((p.row(b) - p.row(b - 1)) + (p.row(b) - p.row(b + 1))); },
-                    [&](int b) { return b + 1 < count ? lanes(p.row(b) - p.row(b + 1)) : Array4d(Array4d::Zero()); },
-                    [&](int b) { return b > 0 ? lanes(p.row(b) - p.row(b - 1)) : Array4d(Array4d::Zero()); },
-                    Array4d::Zero(), answers);
-  BandTriple own(count, 3);
-  for (int b = 0; b < count; ++b) {
-    own.row(b) = answers[at(b)].head<3>().matrix().transpose();
-  }
-  Eigen::Matrix3d target = Eigen::Matrix3d::Identity() - m_weights * own;
+  std::array<Array8d, kConvergedBandCount> answers;
+  elimination.solve([&](int b) { return lanes(m_load[at(b)], (p.row(b) - p.row(b - 1)) + (p.row(b) - p.row(b + 1))); },
+                    [&](int b) { return lanes(m_loadUpTo[at(b)], bend(b, b + 1)); },
+                    [&](int b) { return lanes(m_loadBehind[at(b)], bend(b, b - 1)); },
+                    lanes(m_loadUpTo[at(count - 1)], Eigen::RowVector3d::Zero()), answers);
+  const BandTriple pulled = columns(answers, count, 0);
+  const BandTriple own = columns(answers, count, 4);
+  const Eigen::Matrix3d inverse = (seen(m_weights, pulled) + m_slack * Eigen::Matrix3d::Identity()).inverse();
+  Eigen::Matrix3d target = Eigen::Matrix3d::Identity() - seen(m_weights, own);
   if (m_slack > 0.0) {
-    target += m_weights * p;
+    target += seen(m_weights, p);
   }
-  return own + pulled * (inverse * target);
+  return own + pulled.lazyProduct(inverse * target);
 }
 
 }  // namespace metamer::sip

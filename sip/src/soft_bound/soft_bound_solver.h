@@ -15,6 +15,10 @@ using BandVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kConvergedBandCou
 /// Three of them, a column a channel.
 using BandTriple = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kConvergedBandCount, 3>;
 
+/// `weights * spectra`, without the set-up of a product of large matrices.
+/// @param weights  3 x B
+Eigen::Matrix3d seen(const Eigen::Matrix3Xd& weights, const BandTriple& spectra);
+
 struct NewtonLanes;
 
 /// The smooth spectrum that has a given tristimulus, softly bounded below (course notes, section 5.5, its bound made
@@ -75,8 +79,7 @@ class SoftBoundSolver {
 
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-  /// Puts the spectrum without clamped bands into `reflectance`, and says whether it is the answer; else which bands it
-  /// has below zero.
+  /// Puts the spectrum without clamped bands into `reflectance`, and says whether it is the answer.
   bool isSmoothEnough(Problem& problem) const;
   /// By Newton's method from there. @param group  at most NewtonLanes::kLanes, all with a prior or all without
   void solveTogether(std::span<Problem* const> group) const;

@@ -63,10 +63,10 @@ struct SpectralTransform::State {
   }
   /// Its derivative by the response, from the spectrum's.
   Eigen::Matrix3d relativeSlope(const BandTriple& spectrumSlope) const {
-    Eigen::Matrix3d slope = relativeFromSpectrum * spectrumSlope + sides.unseen * sides.relativeFromResponse;
+    Eigen::Matrix3d slope = seen(relativeFromSpectrum, spectrumSlope) + sides.unseen * sides.relativeFromResponse;
     if (relaxed) {
-      slope +=
-          sides.relativeFromResponse * (Eigen::Matrix3d::Identity() - recovery->solver().weights() * spectrumSlope);
+      slope += sides.relativeFromResponse *
+               (Eigen::Matrix3d::Identity() - seen(recovery->solver().weights(), spectrumSlope));
     }
     return slope;
   }
