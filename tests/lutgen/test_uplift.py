@@ -57,6 +57,22 @@ class Uplift(LutgenTest):
             self.assertEqual(header["spectralLayoutVersion"], "1.0")
             self.assertEqual(header["metamer:uplift"], method)
 
+    def test_halves_are_the_nearest(self):
+        bits = np.random.default_rng(7).integers(0, 2**32, size=(30, 70, 3), dtype=np.uint32)
+        # Every exponent of a half, ties, the least ones, and in a few rows what is no finite number.
+        bits[:20] = bits[:20] & 0x8FFFFFFF | 0x30000000
+        bits[5:8] &= np.uint32(0xFFFFF000)
+        numbers = bits.view(np.float32)
+        numbers[:20][~np.isfinite(numbers[:20])] = 1
+        self.picture(numbers)
+        run = lutgen("uplift", "a.exr", "-o", "o.exr", "--method", "mallett", folder=self.folder)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with np.errstate(over="ignore", invalid="ignore"):
+            wanted = np.where(np.isfinite(numbers), np.clip(numbers, -65504, 65504), numbers).astype(np.float16)
+        written = stacked(read(self.folder / "o.exr")[1], "RGB")
+        np.testing.assert_array_equal(np.isnan(written), np.isnan(wanted))
+        np.testing.assert_array_equal(written.view(np.uint16)[~np.isnan(wanted)], wanted.view(np.uint16)[~np.isnan(wanted)])
+
     def test_threads_types_and_compressions_change_nothing_else(self):
         self.picture(np.random.default_rng(2).uniform(size=(61, 23, 3)))
         for method in ("natural", "jakob"):

@@ -4,7 +4,10 @@
 #include <Imath/half.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 
@@ -31,6 +34,37 @@ constexpr float kLargestHalf = 65504.0F;
 Imath::half halfOf(float value) {
   // Infinities stay what they are; finite numbers stay finite.
   return Imath::half(std::isfinite(value) ? std::clamp(value, -kLargestHalf, kLargestHalf) : value);
+}
+
+/// As halfOf, of a finite number: bits from bits, without branches, which a compiler makes vectors of.
+std::uint16_t halfBits(float value) {
+  constexpr std::uint32_t kLeastNormal = 0x38800000;  // 2^-14
+  constexpr std::uint32_t kRebias = 0x38000000;       // of the exponents: 127 - 15
+  constexpr int kFewerBits = 13;
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  const std::uint32_t size = std::min(bits & 0x7FFFFFFFU, std::bit_cast<std::uint32_t>(kLargestHalf));
+  const std::uint32_t rebiased = size - kRebias;
+  const std::uint32_t normal = (rebiased + 0xFFFU + ((rebiased >> kFewerBits) & 1U)) >> kFewerBits;
+  // A half's smallest step is the last place of 0.5.
+  const std::uint32_t small = std::bit_cast<std::uint32_t>(std::bit_cast<float>(size) + 0.5F) - 0x3F000000U;
+  return static_cast<std::uint16_t>((size >= kLeastNormal ? normal : small) | ((bits >> 16U) & 0x8000U));
+}
+
+/// Puts some numbers where all are finite. @return whether they are
+template <std::size_t count>
+bool putHalves(char* bytes, const float* values) {
+  constexpr std::uint32_t kInfinite = 0x7F800000;
+  std::uint32_t infinite = 0;
+  std::array<std::uint16_t, count> halves;
+  for (std::size_t k = 0; k < count; ++k) {
+    infinite |= static_cast<std::uint32_t>((std::bit_cast<std::uint32_t>(values[k]) & kInfinite) == kInfinite);
+    halves[k] = halfBits(values[k]);
+  }
+  if (infinite != 0) {
+    return false;
+  }
+  std::memcpy(bytes, halves.data(), sizeof halves);
+  return true;
 }
 
 /// Calls body(k, float) for each sample.
@@ -116,7 +150,13 @@ std::size_t exrBytes(const std::vector<ExrChannel>& channels, const ExrRectangle
 }
 
 void putSamples(char* bytes, ExrType type, std::span<const float> values) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
+  std::size_t k = 0;
+  if (type == ExrType::Half) {
+    constexpr std::size_t kTogether = 64;
+    for (; k + kTogether <= values.size() && putHalves<kTogether>(bytes + 2 * k, &values[k]); k += kTogether) {
+    }
+  }
+  for (; k < values.size(); ++k) {
     writeSample(bytes, type, k, values[k]);
   }
 }

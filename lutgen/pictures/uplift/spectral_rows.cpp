@@ -2,7 +2,9 @@
 #include "uplift/spectral_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace metamer::lutgen {
 namespace {
@@ -29,18 +31,19 @@ SpectralRows::SpectralRows(const spectral::Uplift& uplift, PixelFunction toRec70
   }
 }
 
-void SpectralRows::count(const double* spectrum) {
-  const Eigen::Map<const Eigen::ArrayXd> values(spectrum, static_cast<Eigen::Index>(m_uplift.wavelengthsNm().size()));
-  if (std::isnan(values[0])) {
-    ++m_noNumbers;
+void SpectralRows::count(const double* spectrum, Unphysical& unphysical) const {
+  if (std::isnan(spectrum[0])) {
+    ++unphysical.noNumbers;
     return;
   }
-  if (values.minCoeff() < -kSlack) {
-    ++m_below;
+  std::uint64_t below = 0;
+  std::uint64_t above = 0;
+  for (std::size_t band = 0; band < m_uplift.wavelengthsNm().size(); ++band) {
+    below |= static_cast<std::uint64_t>(spectrum[band] < -kSlack);
+    above |= static_cast<std::uint64_t>(spectrum[band] > 1 + kSlack);
   }
-  if (values.maxCoeff() > 1 + kSlack) {
-    ++m_above;
-  }
+  unphysical.below += below;
+  unphysical.above += above;
 }
 
 void SpectralRows::spectra(std::span<const float> rgb, std::span<const float> alpha, std::span<float> spectra) {
@@ -49,6 +52,8 @@ void SpectralRows::spectra(std::span<const float> rgb, std::span<const float> al
   std::vector<float> rgba(4 * kTogether, 1.0F);
   std::vector<double> colours(3 * kTogether);
   std::vector<double> found(bands * kTogether);
+  std::array<float, kTogether> scales{};
+  Unphysical unphysical;
   for (std::size_t first = 0; first < width; first += kTogether) {
     const std::size_t count = std::min(kTogether, width - first);
     const auto scaleOf = [&](std::size_t i) {
@@ -67,16 +72,23 @@ void SpectralRows::spectra(std::span<const float> rgb, std::span<const float> al
     }
     m_uplift.spectra(std::span(colours).first(3 * count), std::span(found).first(bands * count));
     for (std::size_t i = 0; i < count; ++i) {
-      const double* const spectrum = &found[bands * i];
-      this->count(spectrum);
-      for (std::size_t band = 0; band < m_places.size(); ++band) {
-        const auto [index, share] = m_places[band];
-        const auto here = static_cast<float>(spectrum[index]);
-        const auto next = static_cast<float>(spectrum[index + 1]);
-        spectra[band * width + first + i] = (here + share * (next - here)) * scaleOf(i);
+      this->count(&found[bands * i], unphysical);
+      scales[i] = scaleOf(i);
+    }
+    for (std::size_t band = 0; band < m_places.size(); ++band) {
+      const auto [index, share] = m_places[band];
+      const double* spectrum = &found[index];
+      float* const to = &spectra[band * width + first];
+      for (std::size_t i = 0; i < count; ++i, spectrum += bands) {
+        const auto here = static_cast<float>(spectrum[0]);
+        const auto next = static_cast<float>(spectrum[1]);
+        to[i] = (here + share * (next - here)) * scales[i];
       }
     }
   }
+  m_below += unphysical.below;
+  m_above += unphysical.above;
+  m_noNumbers += unphysical.noNumbers;
 }
 
 }  // namespace metamer::lutgen

@@ -41,7 +41,7 @@ class SpectralRows {
     float share;
   };
 
-  void count(const double* spectrum);
+  void count(const double* spectrum, Unphysical& unphysical) const;
 
   const spectral::Uplift& m_uplift;
   PixelFunction m_toRec709;
