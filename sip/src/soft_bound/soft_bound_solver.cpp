@@ -244,7 +244,7 @@ void SoftBoundSolver::solveTogether(std::span<Problem* const> group) const {
   }
 }
 
-Eigen::Matrix3d seen(const Eigen::Matrix3Xd& weights, const BandTriple& spectra) {
+Eigen::Matrix3d seen(const Eigen::Matrix3Xd& weights, const Eigen::Ref<const Eigen::MatrixX3d>& spectra) {
   Eigen::Array3d first = Eigen::Array3d::Zero();
   Eigen::Array3d second = first;
   Eigen::Array3d third = first;

@@ -17,7 +17,7 @@ using BandTriple = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kConvergedBandCou
 
 /// `weights * spectra`, without the set-up of a product of large matrices.
 /// @param weights  3 x B
-Eigen::Matrix3d seen(const Eigen::Matrix3Xd& weights, const BandTriple& spectra);
+Eigen::Matrix3d seen(const Eigen::Matrix3Xd& weights, const Eigen::Ref<const Eigen::MatrixX3d>& spectra);
 
 struct NewtonLanes;
 

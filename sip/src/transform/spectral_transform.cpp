@@ -62,7 +62,7 @@ struct SpectralTransform::State {
     return result;
   }
   /// Its derivative by the response, from the spectrum's.
-  Eigen::Matrix3d relativeSlope(const BandTriple& spectrumSlope) const {
+  Eigen::Matrix3d relativeSlope(const Eigen::Ref<const Eigen::MatrixX3d>& spectrumSlope) const {
     Eigen::Matrix3d slope = seen(relativeFromSpectrum, spectrumSlope) + sides.unseen * sides.relativeFromResponse;
     if (relaxed) {
       slope += sides.relativeFromResponse *

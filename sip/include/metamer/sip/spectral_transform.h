@@ -122,8 +122,7 @@ class SpectralTransform {
   struct SolvedSpectrum {
     Eigen::VectorXd reflectance;
     ClampedBands clamped;
-    Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kConvergedBandCount, 3> slope;  ///< by the response; empty before it is
-                                                                                ///< asked for
+    Eigen::MatrixX3d slope;  ///< by the response; empty before it is asked for
   };
   /// A colour and what it becomes, with what the slope there depends on.
   struct Point {
