@@ -54,6 +54,16 @@ BandTriple smoothest(const Eigen::Matrix3Xd& weights, double slack) {
   return spectrum;
 }
 
+/// Band by band, the first `count` rows as lanes. The count is known beforehand so that the loop is unrolled.
+template <std::size_t count>
+void putSideBySide(const std::array<const double*, NewtonLanes::kLanes>& rows, int bandCount, double* lanes) {
+  for (int b = 0; b < bandCount; ++b, lanes += NewtonLanes::kLanes) {
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      lanes[lane] = rows[lane][b];
+    }
+  }
+}
+
 /// Three lanes of what an elimination gives, a row a band.
 template <typename Lanes>
 BandTriple columns(const std::array<Lanes, kConvergedBandCount>& answers, int bandCount, Index first) {
@@ -205,14 +215,14 @@ void SoftBoundSolver::fill(NewtonLanes& lanes, std::span<Problem* const> group) 
       lanes.held[k * kLanes + lane] = held[static_cast<Index>(k)];
     }
   }
+  const bool areFew = group.size() <= NewtonLanes::kFew;
   const auto sideBySide = [&](auto rowOf, auto& rows) {
     std::array<const double*, kLanes> from;
     std::transform(problems.begin(), problems.end(), from.begin(), rowOf);
-    double* to = rows.data();
-    for (int b = 0; b < bandCount(); ++b) {
-      for (const double* const row : from) {
-        *to++ = row[b];
-      }
+    if (areFew) {
+      putSideBySide<NewtonLanes::kFew>(from, bandCount(), rows.data());
+    } else {
+      putSideBySide<kLanes>(from, bandCount(), rows.data());
     }
   };
   sideBySide([](const Problem* problem) { return problem->reflectance; }, lanes.spectrum);

@@ -28,6 +28,12 @@ std::optional<double> finiteNumber(const YamlNode& node) {
   return value;
 }
 
+/// From low to high, else nothing.
+std::optional<double> numberWithin(const YamlNode& node, double low, double high) {
+  const auto value = finiteNumber(node);
+  return value && *value >= low && *value <= high ? value : std::nullopt;
+}
+
 std::string rangeText(double low, double high) {
   if (low == -YamlValue::kAny && high == YamlValue::kAny) {
     return "must be a finite number";
@@ -83,16 +89,16 @@ std::string YamlValue::text() const {
 }
 
 double YamlValue::number(double low, double high) const {
-  const auto value = finiteNumber(*m_node);
-  if (!value || !(*value >= low && *value <= high)) {
+  const auto value = numberWithin(*m_node, low, high);
+  if (!value) {
     throw error(rangeText(low, high));
   }
   return *value;
 }
 
 int YamlValue::integer(int low, int high) const {
-  const auto value = finiteNumber(*m_node);
-  if (!value || !(*value >= low && *value <= high) || *value != std::floor(*value)) {
+  const auto value = numberWithin(*m_node, low, high);
+  if (!value || *value != std::floor(*value)) {
     throw error("must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
   }
   return static_cast<int>(*value);
@@ -124,8 +130,8 @@ std::vector<double> YamlValue::numbers(double low, double high) const {
   result.reserve(m_node->items.size());
   for (std::size_t i = 0; i < m_node->items.size(); ++i) {
     const YamlNode& item = m_node->items[i];
-    const auto value = finiteNumber(item);
-    if (!value || !(*value >= low && *value <= high)) {
+    const auto value = numberWithin(item, low, high);
+    if (!value) {
       throw part(item, m_field + "[" + std::to_string(i) + "]").error(rangeText(low, high));
     }
     result.push_back(*value);
