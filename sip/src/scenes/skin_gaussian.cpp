@@ -64,11 +64,12 @@ SkinGaussian::Share SkinGaussian::share(const Vector2d& place) const {
   const Vector2d away = place - m_centre;
   const Vector2d pull = m_precision * away;
   const double fades = 1.0 / (m_fade * m_fade);
-  const double distance = away.dot(pull) * fades;
-  const double skin = m_share * std::exp(-0.5 * distance);
+  const double distance = std::sqrt(std::max(away.dot(pull), 0.0) * fades);
+  const double skin = m_share * std::exp(-0.5 * distance * distance * distance);
+  const double steepness = 1.5 * distance * fades;
   const double sharpness = kWhiteSharpness / std::max(m_centre.squaredNorm(), kLeastPlace);
   const double atWhite = std::exp(-sharpness * place.squaredNorm());
-  return {skin * (1.0 - atWhite), skin * (2.0 * sharpness * atWhite * place - (1.0 - atWhite) * fades * pull)};
+  return {skin * (1.0 - atWhite), skin * (2.0 * sharpness * atWhite * place - (1.0 - atWhite) * steepness * pull)};
 }
 
 }  // namespace metamer::sip

@@ -6,8 +6,9 @@
 namespace metamer::sip {
 
 /// Skins as one Gaussian of spectra. Its mean given a colour is linear in the colour, and so homogeneous: an exposure
-/// changes nothing. What it is worth at a chromaticity is its share: `share exp(-m^2 / (2 fade^2))`, m the distance
-/// from the skins' mean in their own standard deviations, and nothing at white, so that neutrals stay exact.
+/// changes nothing. What it is worth at a chromaticity is its share: `share exp(-(m / fade)^3 / 2)`, m the distance
+/// from the skins' mean in their own standard deviations, and nothing at white, so that neutrals stay exact. By trial
+/// the square is too little at ordinary skins, and the fourth power too steep: chromaticities fold beside it.
 ///
 /// Places are chromaticities as MeasuredSeeds has them. Immutable.
 class SkinGaussian {

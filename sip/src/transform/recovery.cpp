@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "transform/recovery.h"
 
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -16,9 +17,12 @@ namespace {
 /// Noise of a measured sample in the scene, over the kernel's 1, by cross-validation.
 constexpr double kSampleNoise = 0.2;
 constexpr double kSkinNoise = 0.1;
+/// The skin scene follows its skins more closely, by this much at strength 1, so that samples and Gaussian say much the
+/// same where one passes into the other. Closer still costs charts.
+constexpr double kNoiseOfFollowedSkin = 0.5;
 /// What the skin scene's Gaussian counts for among skins at strength 1; the rest is the samples'. More folds
-/// chromaticities under sodium; so do steeper sides.
-constexpr double kSkinShare = 0.8;
+/// chromaticities under sodium.
+constexpr double kSkinShare = 0.84;
 /// Fewer skins have no covariance.
 constexpr std::size_t kFewestSkins = 4;
 
@@ -50,6 +54,11 @@ void checkSkin(const ReferenceScene& scene) {
   }
 }
 
+double skinNoiseOf(const ReferenceScene& scene) {
+  const bool isSkin = kindBesidePairs(scene) == ReferenceScene::Kind::Skin;
+  return isSkin ? kSkinNoise * std::pow(kNoiseOfFollowedSkin, scene.strength) : kSkinNoise;
+}
+
 /// Samples and skins of a scene with their noise, as an observer sees them.
 MeasuredSeeds seedsOf(const ReferenceScene& scene, const SoftBoundSolver& solver) {
   const Eigen::MatrixXd samples = samplesOnBands(scene.samples, MeasuredScene::kNodeCount);
@@ -57,7 +66,8 @@ MeasuredSeeds seedsOf(const ReferenceScene& scene, const SoftBoundSolver& solver
   Eigen::MatrixXd all(MeasuredScene::kNodeCount, samples.cols() + skins.cols());
   all << samples, skins;
   Eigen::VectorXd noise(all.cols());
-  noise << Eigen::VectorXd::Constant(samples.cols(), kSampleNoise), Eigen::VectorXd::Constant(skins.cols(), kSkinNoise);
+  noise << Eigen::VectorXd::Constant(samples.cols(), kSampleNoise),
+      Eigen::VectorXd::Constant(skins.cols(), skinNoiseOf(scene));
   return {solver.weights(), all, noise};
 }
 

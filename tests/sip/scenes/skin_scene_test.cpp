@@ -26,7 +26,7 @@ constexpr int kBands = 81;
 
 /// A chart as samples, virtual skins as the Gaussian.
 struct SkinsAndChart {
-  explicit SkinsAndChart(const char* light, double share = 0.8)
+  explicit SkinsAndChart(const char* light, double share = 0.84)
       : solver(normalisedWeights(light, kBands)),
         skins(samplesOnBands(samplesOf("virtual skins"), kBands)),
         seeds(solver.weights(), onBands(samplesOf("colorchecker"), kBands), Eigen::VectorXd::Constant(24, 0.2)),
@@ -114,16 +114,8 @@ Samples without(const Samples& samples, const Samples& heldOut) {
   return kept;
 }
 
-/// CIEDE2000 of samples from daylight to a light, they and their twins left out of the scene.
-std::vector<double> heldOut(const char* light, ReferenceScene::Kind kind, const Samples& samples) {
-  TransformSpec spec = naturalSpecOf("D65", light);
-  spec.adaptation = 1.0;
-  spec.training = without(spec.training, samples);
-  spec.scene.kind = kind;
-  spec.scene.samples = without(spec.scene.samples, samples);
-  if (kind == ReferenceScene::Kind::Skin) {
-    spec.scene.virtualSkins = samplesOf("virtual skins");
-  }
+/// CIEDE2000 of samples by a transform.
+std::vector<double> errorsOf(const TransformSpec& spec, const Samples& samples) {
   const SpectralTransform transform(spec, kBands);
   const Eigen::Matrix3d xyz = spec.space.xyzFromRgb();
   const Vector3d white = spec.space.whiteXyz();
@@ -136,6 +128,19 @@ std::vector<double> heldOut(const char* light, ReferenceScene::Kind kind, const 
   return errors;
 }
 
+/// CIEDE2000 of samples from daylight to a light, they and their twins left out of the scene.
+std::vector<double> heldOut(const char* light, ReferenceScene::Kind kind, const Samples& samples) {
+  TransformSpec spec = naturalSpecOf("D65", light);
+  spec.adaptation = 1.0;
+  spec.training = without(spec.training, samples);
+  spec.scene.kind = kind;
+  spec.scene.samples = without(spec.scene.samples, samples);
+  if (kind == ReferenceScene::Kind::Skin) {
+    spec.scene.virtualSkins = samplesOf("virtual skins");
+  }
+  return errorsOf(spec, samples);
+}
+
 double meanOf(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) {
@@ -145,12 +150,11 @@ double meanOf(const std::vector<double>& values) {
 }
 
 TEST(SkinSceneTest, MeasuredSkinThatItDoesNotKnow) {
-  // Under sodium 0.5 can be had with a larger share, but then chromaticities fold.
   struct Asked {
     const char* light;
     double most;
   };
-  for (const Asked& asked : {Asked{"A", 0.35}, {"FL11", 0.45}, {"HP1", 0.65}, {"LED-RGB1", 0.25}}) {
+  for (const Asked& asked : {Asked{"A", 0.35}, {"FL11", 0.45}, {"HP1", 0.5}, {"LED-RGB1", 0.25}}) {
     const std::vector<double> errors = heldOut(asked.light, ReferenceScene::Kind::Skin, samplesOf("skin"));
     ASSERT_EQ(errors.size(), 3U);
     std::printf("[ skin ] D65 -> %s: CES15 %.3f, CES18 %.3f, TCS15 %.3f, mean %.3f (asked %.2f); smooth %.2f\n",
@@ -160,6 +164,27 @@ TEST(SkinSceneTest, MeasuredSkinThatItDoesNotKnow) {
     if (std::string(asked.light) == "A") {
       EXPECT_LE(*std::max_element(errors.begin(), errors.end()), 0.6);
     }
+  }
+}
+
+/// The model's published skins, in whose place the scene holds as many virtual ones.
+TEST(SkinSceneTest, PeopleThatItDoesNotKnow) {
+  struct Asked {
+    const char* light;
+    double most;
+  };
+  for (const Asked& asked : {Asked{"A", 0.35}, {"FL11", 0.45}, {"HP1", 0.5}, {"LED-RGB1", 0.25}}) {
+    const Samples people = samplesOf("model skins");
+    TransformSpec spec = naturalSpecOf("D65", asked.light);
+    spec.adaptation = 1.0;
+    spec.scene.kind = ReferenceScene::Kind::Skin;
+    spec.scene.virtualSkins = samplesOf("virtual skins");
+    spec.scene.skins.assign(spec.scene.virtualSkins.begin(),
+                            spec.scene.virtualSkins.begin() + static_cast<std::ptrdiff_t>(people.size()));
+    const double mean = meanOf(errorsOf(spec, people));
+    std::printf("[ skin ] D65 -> %s: %zu model skins, mean %.3f (asked %.2f)\n", asked.light, people.size(), mean,
+                asked.most);
+    EXPECT_LE(mean, asked.most) << asked.light;
   }
 }
 
@@ -190,8 +215,8 @@ int foldsAboutSkin(const char* light, ReferenceScene::Kind kind, double strength
   };
   constexpr double kStep = 1e-5;
   int folds = 0;
-  for (double x = 0.29; x < 0.56; x += 0.006) {
-    for (double y = 0.27; y < 0.44; y += 0.006) {
+  for (double x = 0.29; x < 0.56; x += 0.004) {
+    for (double y = 0.27; y < 0.44; y += 0.004) {
       const Eigen::Vector2d middle = resultOf(x, y);
       Eigen::Matrix2d slope;
       slope << resultOf(x + kStep, y) - middle, resultOf(x, y + kStep) - middle;
@@ -202,7 +227,7 @@ int foldsAboutSkin(const char* light, ReferenceScene::Kind kind, double strength
 }
 
 TEST(SkinSceneTest, ChromaticitiesDoNotFoldWhereNaturalDoesNot) {
-  for (const char* const light : {"A", "FL11", "HP1", "LED-RGB1"}) {
+  for (const char* const light : {"A", "FL2", "FL11", "HP1", "HP2", "LED-RGB1"}) {
     const int natural = foldsAboutSkin(light, ReferenceScene::Kind::Natural, 1.0, kDefaultSkinFade);
     const int skin = foldsAboutSkin(light, ReferenceScene::Kind::Skin, 1.0, kDefaultSkinFade);
     std::printf("[ folds ] D65 -> %s: natural %d, skin %d\n", light, natural, skin);
