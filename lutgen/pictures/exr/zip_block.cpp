@@ -2,15 +2,17 @@
 #include "exr/zip_block.h"
 
 #include <algorithm>
-
-#ifdef METAMER_HAS_LIBDEFLATE
-#include <libdeflate.h>
-
 #include <array>
 #include <memory>
 #include <new>
+
+#ifdef METAMER_HAS_LIBDEFLATE
+#include <libdeflate.h>
 #else
 #include <zlib.h>
+#endif
+#ifdef METAMER_HAS_ISAL
+#include <isa-l/igzip_lib.h>
 #endif
 
 namespace metamer::lutgen {
@@ -85,6 +87,33 @@ std::size_t deflateInto(const std::string& bytes, std::string& packed, int level
 
 #endif
 
+#ifdef METAMER_HAS_ISAL
+
+/// For kFastZipLevel. 0 where they do not fit.
+std::size_t deflateFast(std::string& bytes, std::string& packed) {
+  thread_local const auto stream = std::make_unique<isal_zstream>();
+  thread_local std::array<std::uint8_t, ISAL_DEF_LVL1_DEFAULT> room;
+  isal_deflate_stateless_init(stream.get());
+  stream->level = 1;
+  stream->level_buf = room.data();
+  stream->level_buf_size = room.size();
+  stream->gzip_flag = IGZIP_ZLIB;
+  stream->end_of_stream = 1;
+  stream->next_in = reinterpret_cast<std::uint8_t*>(bytes.data());
+  stream->avail_in = static_cast<std::uint32_t>(bytes.size());
+  stream->next_out = reinterpret_cast<std::uint8_t*>(packed.data());
+  stream->avail_out = static_cast<std::uint32_t>(packed.size());
+  return isal_deflate_stateless(stream.get()) == COMP_OK ? stream->total_out : 0;
+}
+
+#else
+
+std::size_t deflateFast(const std::string& bytes, std::string& packed) {
+  return deflateInto(bytes, packed, kFastZipLevel);
+}
+
+#endif
+
 }  // namespace
 
 std::string unzippedBlock(std::string_view packed, std::size_t size) {
@@ -141,7 +170,8 @@ std::string zippedBlock(std::string_view block, int level) {
     to[k] = less(block[2 * k + 1], block[2 * k - 1]);
   }
   packed.resize(size - 1);
-  const std::size_t packedSize = deflateInto(differences, packed, level);
+  const std::size_t packedSize =
+      level == kFastZipLevel ? deflateFast(differences, packed) : deflateInto(differences, packed, level);
   return packedSize == 0 ? std::string(block) : packed.substr(0, packedSize);
 }
 

@@ -19,7 +19,7 @@ std::string inflated(std::string_view packed, std::size_t most);
 
 /// As OpenEXR has packed since 3.1.3.
 inline constexpr int kUsualZipLevel = 4;
-/// A third less time, and of many channels that are alike hardly more bytes.
+/// A sixth of the time (by ISA-L), and of many channels that are alike 3 % more bytes.
 inline constexpr int kFastZipLevel = 1;
 
 /// The bytes as they are where packing does not make them fewer.
