@@ -158,7 +158,7 @@ void bindConfidence(nb::module_& module) {
               "(6, 4), white_patch: int | str | None = None, white_reflectance: float | None = None, xyz_from_camera: "
               "numpy.typing.ArrayLike, held_patch: int | str | None = None, patch_weights: numpy.typing.ArrayLike | "
               "None = None, largest_condition: float | None = None, skins: WallCapture | None = None, skin_weight: "
-              "float = 4.0) -> WallIntervals"),
+              "float = 6.0) -> WallIntervals"),
       "95 % intervals of what solve() gives, by captures with their noise once more: `noise` is a part of each value,\n"
       "or that and a floor; None: estimated from the chart. `xyz_from_camera` and `white_patch` are for\n"
       "colour differences; with `white_reflectance` the environment's white is that patch of the target over it, and "

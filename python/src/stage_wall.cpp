@@ -210,7 +210,7 @@ void bindWall(nb::module_& module) {
       "skin_weight"_a = stage::kDefaultSkinWeight,
       nb::sig("def solve_wall(capture: WallCapture, *, held_patch: int | str | None = None, patch_weights: "
               "numpy.typing.ArrayLike | None = None, largest_condition: float = 100.0, skins: WallCapture | None = "
-              "None, skin_weight: float = 4.0) -> WallSolution"),
+              "None, skin_weight: float = 6.0) -> WallSolution"),
       "M, Q, N and the black offset of an RGB wall. `held_patch` keeps its colour exactly. `skins`: the same wall and\n"
       "place with skins for a chart (from_spectra(..., reflectances=\"virtual skins\")), each of which counts\n"
       "`skin_weight` beside a patch's 1.");

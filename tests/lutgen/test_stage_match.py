@@ -61,7 +61,7 @@ class MatchTest(LutgenTest):
             self.assertEqual((skin["count"], skin["weight"], skin["trade_off"]), (200, 0, []))
         plain, faces = self.match(*arguments), self.match(*arguments, "--priority", "skin:20")
         self.assertLess(faces["virtual_skin"]["dE"]["mean"], plain["virtual_skin"]["dE"]["mean"])
-        self.assertEqual([point["weight"] for point in plain["virtual_skin"]["trade_off"]], [0, 0.04, 0.2, 1, 4, 20])
+        self.assertEqual([point["weight"] for point in plain["virtual_skin"]["trade_off"]], [0, 0.04, 0.2, 1, 6, 20])
         self.assertAlmostEqual(plain["virtual_skin"]["trade_off"][5]["skin_dE"]["mean"],
                                faces["virtual_skin"]["dE"]["mean"], places=9)
         self.assertFails("stage", "match", "--json", "m.json", *arguments, "--method", "mim", "--priority", "skin",

@@ -107,14 +107,14 @@ class Skin(StageTest):
                 self.assertEqual(best["virtual_skin"]["weight"], 0)
                 ours = self.spectra(target, camera, "--priority", "skin")
                 skin = ours["virtual_skin"]
-                self.assertEqual((skin["count"], skin["weight"]), (200, 4))
+                self.assertEqual((skin["count"], skin["weight"]), (200, 6))
                 lost = ours["dE_after"]["mean"] - best["dE_after"]["mean"]
                 print(f"{camera}, {target}: skin {best['virtual_skin']['dE_after']['mean']:.2f} -> "
                       f"{skin['dE_after']['mean']:.2f} +- {skin['dE_after']['deviation']:.2f}, chart + {lost:.2f}")
                 self.assertLessEqual(skin["dE_after"]["mean"], 0.6)
                 self.assertLessEqual(lost, 1.1)
                 curve = skin["trade_off"]
-                self.assertEqual([point["weight"] for point in curve], [0, 0.04, 0.2, 1, 4, 20])
+                self.assertEqual([point["weight"] for point in curve], [0, 0.04, 0.2, 1, 6, 20])
                 # More weight, nearer skin and a farther chart: squares fall and rise, means follow.
                 self.assertEqual(sorted((point["skin_dE"]["mean"] for point in curve), reverse=True),
                                  [point["skin_dE"]["mean"] for point in curve])
@@ -122,7 +122,7 @@ class Skin(StageTest):
                 self.assertEqual(curve[4]["skin_dE"], skin["dE_after"])
         self.assertIn("200 virtual skins", self.printed)
         self.assertIn("--priority skin:WEIGHT", self.printed)
-        self.assertIn("| **4** |", (self.folder / "s.md").read_text())
+        self.assertIn("| **6** |", (self.folder / "s.md").read_text())
 
     def test_refusals(self):
         self.failing(["priority", "stage's spectra"], extra="q: {skin_priority: 4}\n")

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
+#include <cstdio>
 
+#include "metamer/stage/chart_difference.h"
 #include "metamer/stage/emitter_match.h"
 #include "metamer/stage/emitter_model.h"
 #include "metamer/stage/fixture.h"
@@ -25,12 +28,12 @@ struct Wall {
   WallCapture chart;
   WallOptions options;
 
-  explicit Wall(const char* target) {
+  explicit Wall(const char* target, const char* camera = "Canon EOS 5D Mark II") {
     const char* const leds[] = {"led:628:14", "led:525:24", "led:460:16"};
     for (std::size_t k = 0; k < 3; ++k) {
       spectra.emitters[k] = emittersFrom(leds[k], testLibrary(), {}).front().spectrum.onDomain();
     }
-    spectra.camera = testLibrary().observer("Canon EOS 5D Mark II").onDomain();
+    spectra.camera = testLibrary().observer(camera).onDomain();
     spectra.target = testLibrary().illuminant(target).onDomain();
     spectra.reflectances = testLibrary().reflectances("colorchecker").samples;
     chart = captureOf(spectra);
@@ -87,6 +90,46 @@ TEST(SkinPriority, CountsAsPatchesOfThatWeight) {
   const WallSolution none = solveWall(plain.chart, plain.options);
   const Eigen::Matrix3Xd& target = plain.options.skins->target;
   EXPECT_LT((ours.correctedSkins - target).norm(), 0.5 * (none.correctedSkins - target).norm());
+}
+
+/// Mean CIEDE2000 of a wall's chart and of 500 skins that none is solved with.
+std::array<double, 2> chartAndOthers(Wall& wall, const char* target, double weight) {
+  wall.options.skinWeight = weight;
+  const WallSolution solution = solveWall(wall.chart, wall.options);
+
+  WallSpectra others = wall.spectra;
+  const auto& skins = testLibrary().reflectances("virtual skins").samples;
+  others.reflectances.assign(skins.end() - 500, skins.end());
+  WallOptions unsolved;
+  unsolved.skins = captureOf(others);
+  const WallSolution shown = solveWall(wall.chart, unsolved);
+
+  // XYZ from the camera as the chart has it.
+  others.camera = testLibrary().observer("CIE 1931 2").onDomain();
+  others.target = testLibrary().illuminant(target).onDomain();
+  others.reflectances = testLibrary().reflectances("colorchecker").samples;
+  const Eigen::Matrix3Xd& seen = wall.chart.target;
+  const Eigen::Matrix3d xyz = captureOf(others).target * seen.transpose() * (seen * seen.transpose()).inverse().eval();
+  const auto meanOf = [&](const Eigen::Matrix3Xd& made, const Eigen::Matrix3Xd& wanted) {
+    return summaryOf(chartDifferences(made, wanted, xyz, wall.chart.environmentWhite)).mean;
+  };
+  return {meanOf(solution.corrected, seen),
+          meanOf(solution.correctedFromCamera * shown.predictedSkins, unsolved.skins->target)};
+}
+
+TEST(SkinPriority, BringsSkinNearUnderBroadLightsWithManyCameras) {
+  for (const char* const camera : {"Canon EOS 5D Mark II", "Nikon D5100", "Canon 1D MkIII (fit)", "Canon 5D MkII (fit)",
+                                   "Red Mysterium X (fit)"}) {
+    for (const char* const target : {"A", "D65", "LED-B1", "LED-B3"}) {
+      Wall wall(target, camera);
+      const auto [bestChart, before] = chartAndOthers(wall, target, 0);
+      const auto [chart, skin] = chartAndOthers(wall, target, kDefaultSkinWeight);
+      std::printf("[ stage ] %s, %s: chart %.2f -> %.2f, skin %.2f -> %.2f\n", camera, target, bestChart, chart, before,
+                  skin);
+      EXPECT_LE(skin, 0.6) << camera << ", " << target;
+      EXPECT_LE(chart, bestChart + 1.1) << camera << ", " << target;
+    }
+  }
 }
 
 TEST(SkinPriority, CondensedRowsHaveTheSameResidual) {
