@@ -16,6 +16,9 @@
 #include "spectral/fixture.h"
 #include "spectral/temporary_folder.h"
 
+// Releases before tell less of their textures, and hold no shader with all as pictures of two dimensions.
+#if OCIO_VERSION_HEX >= 0x02040000
+
 namespace metamer::ocio {
 namespace {
 
@@ -193,3 +196,5 @@ TEST_F(TextureProcessorTest, RefusesWhatIsNoFile) {
 
 }  // namespace
 }  // namespace metamer::ocio
+
+#endif
