@@ -8,15 +8,31 @@
 
 namespace metamer::spectral_ref {
 
-std::filesystem::path exrFile(const std::string& name, int width, int height, int channels,
-                              const std::vector<float>& values) {
-  std::filesystem::path path = scratchFile(name + ".exr");
+namespace {
+
+std::filesystem::path written(const std::string& file, const OIIO::ImageSpec& spec, const void* values) {
+  std::filesystem::path path = scratchFile(file);
   const auto output = OIIO::ImageOutput::create(path.string());
-  const OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::FLOAT);
-  const bool isWritten = output && output->open(path.string(), spec) &&
-                         output->write_image(OIIO::TypeDesc::FLOAT, values.data()) && output->close();
+  const bool isWritten =
+      output && output->open(path.string(), spec) && output->write_image(spec.format, values) && output->close();
   EXPECT_TRUE(isWritten) << path << ": " << OIIO::geterror();
   return path;
+}
+
+}  // namespace
+
+std::filesystem::path exrFile(const std::string& name, int width, int height, int channels,
+                              const std::vector<float>& values, const std::vector<std::string>& names) {
+  OIIO::ImageSpec spec(width, height, channels, OIIO::TypeDesc::FLOAT);
+  if (!names.empty()) {
+    spec.channelnames = names;
+  }
+  return written(name + ".exr", spec, values.data());
+}
+
+std::filesystem::path pngFile(const std::string& name, int width, int height, int channels,
+                              const std::vector<std::uint8_t>& values) {
+  return written(name + ".png", {width, height, channels, OIIO::TypeDesc::UINT8}, values.data());
 }
 
 }  // namespace metamer::spectral_ref

@@ -204,6 +204,15 @@ StoredSpectrum SpectrumStorage::withLines(const DomainSamples& samples, int coun
   return stored;
 }
 
+HatBasis SpectrumStorage::hatBasis(int count) const {
+  requireWithin("count", count, kFewestStored, kMostStored);
+  const Columns basis = hats(count);
+  const DomainSamples root = m_importance.cwiseSqrt();
+  const Eigen::MatrixXd weighted = root.asDiagonal() * basis;
+  const Eigen::MatrixXd roots = root.asDiagonal();
+  return {basis, weighted.colPivHouseholderQr().solve(roots)};
+}
+
 StoredSpectrum SpectrumStorage::pack(const DomainSamples& samples, SpectralQuantity quantity, StorageForm form,
                                      int count) const {
   requireWithin("count", count, kFewestStored, kMostStored);

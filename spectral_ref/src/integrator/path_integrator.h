@@ -149,6 +149,9 @@ class PathIntegrator {
       return false;
     }
     const PathRandom& random = start.random;
+    if (const ReflectanceTexture* texture = m_prepared.materials.texture(hit.material)) {
+      bsdf.setDiffuseReflectance(texture->template at<C>(hit, path.lanes));
+    }
     if (const FluorescenceTable* fluorescence = m_prepared.materials.fluorescence(hit.material)) {
       bsdf.setDiffuseReflectance(fluorescence->template stayOrShift<C>(random.fluorescence(), path.throughput,
                                                                        bsdf.diffuseReflectance(), path.lanes));

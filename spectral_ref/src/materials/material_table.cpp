@@ -65,8 +65,12 @@ MaterialTable::MaterialTable(const Scene& scene) {
       case Material::Kind::Fluorescent:
         prepared.fluorescence = fluorescences[material.fluorescence];
         break;
-      case Material::Kind::Black:
       case Material::Kind::Diffuse:
+        if (material.texture) {
+          prepared.texture = std::make_shared<ReflectanceTexture>(scene.textures[*material.texture]);
+        }
+        break;
+      case Material::Kind::Black:
         break;
     }
     m_materials.push_back(std::move(prepared));

@@ -12,6 +12,7 @@
 #include "materials/diffuse.h"
 #include "materials/fluorescence_table.h"
 #include "materials/gel_sheet.h"
+#include "materials/reflectance_texture.h"
 #include "metamer/spectral_ref/scene.h"
 #include "wavelengths/lanes.h"
 
@@ -30,6 +31,7 @@ struct PreparedMaterial {
   std::vector<float> perCell;  ///< conductor: mean Fresnel reflectance; dielectric: index
   std::shared_ptr<const FluorescenceTable> fluorescence;
   std::shared_ptr<const GelSheet> sheet;  ///< of a gel that depends on the angle
+  std::shared_ptr<const ReflectanceTexture> texture;
 };
 
 /// The BSDF at a point for the wavelengths of a path, whichever kind it is.
@@ -83,7 +85,7 @@ class Bsdf {
   /// Whether it scatters light from behind as well.
   bool isTwoSided() const { return m_kind == Material::Kind::RoughDielectric; }
   const Lanes<C>& diffuseReflectance() const { return m_diffuse.reflectance; }
-  /// Of a fluorescent surface, once it is chosen what becomes of the lanes.
+  /// Of a fluorescent surface, once it is chosen what becomes of the lanes; of a texture, once it is known where.
   void setDiffuseReflectance(const Lanes<C>& reflectance) { m_diffuse.reflectance = reflectance; }
 
   /// Directions in the frame of the surface, both away from it.
@@ -137,8 +139,11 @@ class MaterialTable {
                             const WavelengthSet<C>& wavelengths) const {
     return {m_materials[material], spectra, wavelengths};
   }
-  /// Whether all light is given back as Lambert's law says, at its own wavelength: its reflectance is colour().
-  bool isPlain(std::uint32_t material) const { return m_materials[material].kind == Material::Kind::Diffuse; }
+  /// Whether all light is given back as Lambert's law says, at its own wavelength, everywhere alike: its reflectance is
+  /// colour().
+  bool isPlain(std::uint32_t material) const {
+    return m_materials[material].kind == Material::Kind::Diffuse && !m_materials[material].texture;
+  }
   SpectrumId colour(std::uint32_t material) const { return m_materials[material].colour; }
   /// Whether all light is given back as Lambert's law says, at its own wavelength or another.
   bool isDiffuse(std::uint32_t material) const {
@@ -149,6 +154,8 @@ class MaterialTable {
   const FluorescenceTable* fluorescence(std::uint32_t material) const {
     return m_materials[material].fluorescence.get();
   }
+  /// Null where the material is everywhere alike.
+  const ReflectanceTexture* texture(std::uint32_t material) const { return m_materials[material].texture.get(); }
   bool hasGels() const { return m_hasGels; }
   bool isGel(std::uint32_t material) const { return m_materials[material].kind == Material::Kind::Gel; }
   /// What a gel passes. @param cosine  of the ray to the gel's normal

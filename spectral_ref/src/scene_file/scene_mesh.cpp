@@ -19,6 +19,9 @@
 namespace metamer::spectral_ref {
 namespace {
 
+/// Beyond, a float's steps are wider than the pixels of large pictures.
+constexpr float kFarthestCoordinate = 1000;
+
 bool isSound(const std::array<std::uint32_t, 3>& triangle, const std::vector<std::array<float, 3>>& vertices) {
   std::array<Eigen::Vector3d, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -48,6 +51,22 @@ class OneFile : public Assimp::DefaultIOSystem {
  private:
   std::string m_path;
 };
+
+/// Texture coordinates of a triangle's corners. @return  false where it has none, or some that are no numbers
+bool addCoordinates(const aiMesh& part, const aiFace& face, Mesh& mesh) {
+  if (!part.HasTextureCoords(0)) {
+    return false;
+  }
+  std::array<std::array<float, 2>, 3> corners{};
+  bool areFinite = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const aiVector3D& place = part.mTextureCoords[0][face.mIndices[k]];
+    corners[k] = {place.x, place.y};
+    areFinite = areFinite && std::abs(place.x) <= kFarthestCoordinate && std::abs(place.y) <= kFarthestCoordinate;
+  }
+  mesh.corners.push_back(corners);
+  return areFinite;
+}
 
 constexpr std::uintmax_t kLargestMesh = std::uintmax_t{4} << 30U;
 
@@ -82,6 +101,7 @@ Mesh readMesh(const YamlValue& file, const std::filesystem::path& folder) {
   }
   Mesh mesh;
   mesh.file = spectral::utf8(path);
+  bool hasCoordinates = true;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& part = *scene->mMeshes[m];
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -97,10 +117,14 @@ Mesh readMesh(const YamlValue& file, const std::filesystem::path& folder) {
                                                      first + face.mIndices[2]};
       if (isSound(triangle, mesh.vertices)) {
         mesh.triangles.push_back(triangle);
+        hasCoordinates = hasCoordinates && addCoordinates(part, face, mesh);
       } else {
         ++mesh.dropped;
       }
     }
+  }
+  if (!hasCoordinates) {
+    mesh.corners.clear();
   }
   if (mesh.triangles.empty()) {
     throw file.error("", "'" + spectral::utf8(path) + "' has no triangle with an area; mend the mesh");

@@ -1,69 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_file/scene_pictures.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <system_error>
 #include <utility>
 
 #include "metamer/spectral/input_error.h"
-#include "metamer/spectral/library_words.h"
-#include "metamer/spectral/path_text.h"
-#include "metamer/spectral/picture_file.h"
-#include "metamer/spectral/spectral_picture.h"
 #include "metamer/spectral/spectrum.h"
+#include "scene_file/scene_pixels.h"
 
 namespace metamer::spectral_ref {
 namespace {
 
 using Use = SceneSpectra::Use;
-
-struct Pixels {
-  int width = 0;
-  int height = 0;
-  int channels = 0;
-  std::vector<std::string> names;
-  std::vector<float> values;
-};
-
-Pixels readPixels(const YamlValue& value, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / spectral::pathOf(value.text());
-  try {
-    spectral::requirePictureFile(spectral::utf8(file));
-  } catch (const spectral::InputError& error) {
-    throw value.error("", error.what());
-  }
-  const auto input = OIIO::ImageInput::open(spectral::utf8(file));
-  if (!input) {
-    const std::string reason = OIIO::geterror();
-    throw value.error("", "'" + spectral::utf8(file) + "' cannot be read: " + spectral::pictureReason(reason));
-  }
-  const OIIO::ImageSpec& spec = input->spec();
-  constexpr std::uint64_t kMostPixels = 1U << 26U;
-  if (spec.image_pixels() > kMostPixels || spec.deep || spec.image_pixels() == 0) {
-    throw value.error(
-        "", "'" + spectral::utf8(file) + "' is empty, deep or has more than 2^26 pixels; give a plain picture");
-  }
-  constexpr std::uint64_t kMostValues = 1U << 30U;
-  if (spec.image_pixels() * static_cast<std::uint64_t>(spec.nchannels) > kMostValues) {
-    throw value.error("", "'" + spectral::utf8(file) + "' has more than 2^30 values; give fewer pixels or channels");
-  }
-  Pixels pixels{spec.width, spec.height, spec.nchannels, spec.channelnames, {}};
-  pixels.values.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.values.data())) {
-    throw value.error("",
-                      "'" + spectral::utf8(file) + "' cannot be read: " + spectral::pictureReason(input->geterror()));
-  }
-  for (const float v : pixels.values) {
-    if (!std::isfinite(v)) {
-      throw value.error("", "'" + spectral::utf8(file) + "' has a value that is no finite number; mend the picture");
-    }
-  }
-  return pixels;
-}
 
 /// Drives from channels, one row an emitter.
 Eigen::MatrixXf readMatrix(const YamlMap& section, std::size_t emitters, const Pixels& pixels) {
@@ -116,25 +66,6 @@ std::vector<SpectrumId> readEmitters(const YamlMap& section, SceneSpectra& spect
     ids.push_back(spectra.add(smoothestEmission(xyzFromRgb.col(c), observer)));
   }
   return ids;
-}
-
-/// A spectral picture's channels by rising wavelength: nanometres, and which it is. Empty: it is none.
-std::vector<std::pair<double, int>> spectralChannels(const Pixels& pixels) {
-  std::vector<std::pair<double, int>> channels;
-  for (int c = 0; c < pixels.channels; ++c) {
-    const auto nm = spectral::channelWavelengthNm(pixels.names[static_cast<std::size_t>(c)],
-                                                  spectral::SpectralQuantity::SpectralPowerDistribution);
-    if (nm) {
-      channels.emplace_back(*nm, c);
-    }
-  }
-  std::sort(channels.begin(), channels.end());
-  const auto same = std::adjacent_find(channels.begin(), channels.end(),
-                                       [](const auto& a, const auto& b) { return a.first == b.first; });
-  if (channels.size() < 2 || same != channels.end()) {
-    channels.clear();
-  }
-  return channels;
 }
 
 /// An emitter a channel: linear to the next one's wavelength, nothing beyond the outer ones.
@@ -221,7 +152,7 @@ EmitterPicture readPicture(const YamlMap& section, SceneSpectra& spectra) {
   const Pixels pixels = readPixels(file, spectra.folder());
   const auto scaleValue = section.find("scale");
   const auto scale = static_cast<float>(scaleValue ? scaleValue->number(0.0, 1e12) : 1.0);
-  const auto channels = spectralChannels(pixels);
+  const auto channels = spectralChannels(pixels, spectral::SpectralQuantity::SpectralPowerDistribution);
   if (!channels.empty() && !section.find("emitters") && !section.find("matrix")) {
     return spectralPicture(pixels, channels, scale, spectra);
   }

@@ -33,6 +33,10 @@ std::uint64_t fingerprintOf(const std::string& text, const Scene& scene) {
   for (const EmitterPicture& picture : scene.pictures) {
     fingerprint.add(picture.drives.data(), sizeof(float) * picture.drives.size());
   }
+  for (const Texture& texture : scene.textures) {
+    fingerprint.add(texture.picture.values.data(), sizeof(std::uint16_t) * texture.picture.values.size());
+    fingerprint.add(texture.corners.data(), sizeof(texture.corners[0]) * texture.corners.size());
+  }
   for (const Mesh& mesh : scene.meshes) {
     fingerprint.add(mesh.vertices.data(), sizeof(mesh.vertices[0]) * mesh.vertices.size());
     fingerprint.add(mesh.triangles.data(), sizeof(mesh.triangles[0]) * mesh.triangles.size());

@@ -30,7 +30,7 @@ Rectangle readPlace(const YamlMap& section) {
 
 void readRectangle(const YamlValue& place, const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
   Rectangle rectangle = readPlace(YamlMap(place, {"center", "half_u", "half_v"}));
-  rectangle.surface = readSurface(shape, spectra, scene);
+  rectangle.surface = readSurface(shape, {}, spectra, scene);
   scene.rectangles.push_back(rectangle);
 }
 
@@ -40,7 +40,10 @@ void readSphere(const YamlValue& place, const YamlMap& shape, SceneSpectra& spec
   sphere.center = vectorOf(section.require("center", "is missing; a sphere has 'center' and radius"));
   sphere.radius =
       section.require("radius", "is missing; a sphere has 'center' and radius").number(1e-9, kLargestLength);
-  sphere.surface = readSurface(shape, spectra, scene);
+  Texture texture;
+  texture.wrap = Texture::Wrap::Sphere;
+  texture.center = sphere.center;
+  sphere.surface = readSurface(shape, texture, spectra, scene);
   scene.spheres.push_back(sphere);
 }
 
@@ -89,7 +92,10 @@ void readLedWall(const YamlValue& place, const YamlMap& shape, SceneSpectra& spe
 
 void readMeshShape(const YamlValue& file, const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
   Mesh mesh = readMesh(file, spectra.folder());
-  mesh.surface = readSurface(shape, spectra, scene);
+  Texture texture;
+  texture.wrap = Texture::Wrap::Mesh;
+  texture.corners = std::move(mesh.corners);
+  mesh.surface = readSurface(shape, texture, spectra, scene);
   if (mesh.dropped > 0) {
     scene.warnings.push_back(mesh.file + ": " + std::to_string(mesh.dropped) +
                              " triangles have no area or a coordinate that is no finite number, and are left out");

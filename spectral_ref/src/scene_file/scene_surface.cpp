@@ -6,6 +6,7 @@
 #include "materials/gel_sheet.h"
 #include "scene_file/scene_fluorescence.h"
 #include "scene_file/scene_skin.h"
+#include "scene_file/scene_texture.h"
 
 namespace metamer::spectral_ref {
 namespace {
@@ -129,6 +130,17 @@ Material readDielectric(const YamlValue& value, SceneSpectra& spectra, const Sce
   return material;
 }
 
+/// Lambert's reflector: a reflectance, or a picture of them.
+Material readDiffuse(const YamlValue& value, const Texture& place, SceneSpectra& spectra, Scene& scene) {
+  if (value.isMap()) {
+    return readTexturedDiffuse(value, place, spectra, scene);
+  }
+  Material material;
+  material.kind = Material::Kind::Diffuse;
+  material.colour = spectra.find(value, Use::Reflectance);
+  return material;
+}
+
 /// A gel: a transmittance, or one with the index of its sheet.
 Material readGel(const YamlValue& value, SceneSpectra& spectra, const Scene& scene) {
   Material material;
@@ -162,7 +174,7 @@ std::uint32_t addDiffuse(Scene& scene, SpectrumId reflectance) {
   return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
 
-Surface readSurface(const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
+Surface readSurface(const YamlMap& shape, const Texture& place, SceneSpectra& spectra, Scene& scene) {
   Surface surface;
   std::optional<Material> material;
   const auto set = [&](const YamlValue& value, const Material& given) {
@@ -172,10 +184,7 @@ Surface readSurface(const YamlMap& shape, SceneSpectra& spectra, Scene& scene) {
     material = given;
   };
   if (const auto diffuse = shape.find("diffuse")) {
-    Material given;
-    given.kind = Material::Kind::Diffuse;
-    given.colour = spectra.find(*diffuse, Use::Reflectance);
-    set(*diffuse, given);
+    set(*diffuse, readDiffuse(*diffuse, place, spectra, scene));
   }
   if (const auto skin = shape.find("skin")) {
     set(*skin, readSkin(*skin, spectra));

@@ -10,7 +10,8 @@ inline constexpr const char* kSurfaceKeys[] = {"diffuse",    "skin", "fluorescen
                                                "dielectric", "gel",  "emission"};
 
 /// The material and emission of a shape.
-Surface readSurface(const YamlMap& shape, SceneSpectra& spectra, Scene& scene);
+/// @param place  of a picture on the shape
+Surface readSurface(const YamlMap& shape, const Texture& place, SceneSpectra& spectra, Scene& scene);
 
 /// Adds a diffuse material.
 std::uint32_t addDiffuse(Scene& scene, SpectrumId reflectance);

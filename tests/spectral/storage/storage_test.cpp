@@ -201,5 +201,21 @@ TEST(SpectrumStorage, Refuses) {
   EXPECT_THROW(storage().unpacked({StorageForm::Moments, false, 0, {0.5F, 3, 2, 1, 0}}), InputError);
 }
 
+TEST(SpectrumStorage, HatsAsMatricesAreThoseOfPacking) {
+  for (const int count : {kFewestStored, 12, 20, kMostStored}) {
+    const HatBasis basis = storage().hatBasis(count);
+    for (const DomainSamples& samples : reflectances()) {
+      const StoredSpectrum packed = storage().pack(samples, kReflectance, StorageForm::Hats, count);
+      const Eigen::VectorXd numbers = (basis.numbersFromSamples * samples).cwiseMax(0.0);
+      for (int k = 0; k < count; ++k) {
+        ASSERT_NEAR(numbers[k], packed.numbers[static_cast<std::size_t>(k)], 1e-6);
+      }
+      ASSERT_LE((basis.samplesFromNumbers * numbers - storage().unpacked(packed)).cwiseAbs().maxCoeff(), 1e-6);
+    }
+  }
+  EXPECT_THROW(storage().hatBasis(kFewestStored - 1), InputError);
+  EXPECT_THROW(storage().hatBasis(kMostStored + 1), InputError);
+}
+
 }  // namespace
 }  // namespace metamer::spectral

@@ -41,6 +41,13 @@ struct StoredSpectrum {
   std::size_t bytes() const { return numbers.size() * (form == StorageForm::Bytes ? 1 : sizeof(float)); }
 };
 
+/// StorageForm::Hats as two matrices, for who keeps many reflectances: `samples = samplesFromNumbers numbers`, and
+/// `numbers = numbersFromSamples samples` by the least squares of pack(), before it cuts what is below 0.
+struct HatBasis {
+  Eigen::MatrixXd samplesFromNumbers;  ///< kDomainSize x count; in a row one or two are not 0, side by side
+  Eigen::MatrixXd numbersFromSamples;  ///< count x kDomainSize
+};
+
 /// Packs and unpacks: holds the axis, which is that of the CIE 1931 2 degree observer. Immutable, safe to share between
 /// threads.
 ///
@@ -63,6 +70,9 @@ class SpectrumStorage {
   /// most 1.
   /// @throws InputError where the numbers are none that pack() gives
   DomainSamples unpacked(const StoredSpectrum& stored) const;
+
+  /// @param count  of numbers, kFewestStored ... kMostStored. @throws InputError: another count
+  HatBasis hatBasis(int count) const;
 
  private:
   using Columns = Eigen::Matrix<double, kDomainSize, Eigen::Dynamic>;

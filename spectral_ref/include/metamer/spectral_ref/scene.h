@@ -88,6 +88,29 @@ struct Material {
   std::optional<SpectrumId> f0 = {};  ///< RoughConductor: reflectance at normal incidence instead of eta and k
   RefractiveIndex index;              ///< dielectrics: inside against outside
   double sheetIndex = 0;              ///< Gel: of the sheet, whose transmittance falls with the angle; 0: it does not
+  /// Diffuse: index into Scene::textures, whose reflectance counts; `colour` is its mean.
+  std::optional<std::uint32_t> texture = {};
+};
+
+/// A picture of reflectances: a pixel's values at nodes, linear between them.
+struct ReflectancePicture {
+  int width = 0;
+  int height = 0;
+  std::vector<double> nodesNm;        ///< rising, the first 380, the last 780
+  std::vector<std::uint16_t> values;  ///< height x width x nodes, top row first; 65535 is a reflectance of 1
+};
+
+/// A picture on a shape. Between pixels' middles it is bilinear.
+struct Texture {
+  enum class Wrap {
+    Rectangle,  ///< u to the right, v up, once
+    Sphere,     ///< longitude by latitude: +y up, the picture's middle at +z, upright from outside, left at the left
+    Mesh,       ///< by the corners' coordinates, (0, 0) at the bottom left, again and again beyond 0 ... 1
+  };
+  ReflectancePicture picture;
+  Wrap wrap = Wrap::Rectangle;
+  Vector3 center{0, 0, 0};                                   ///< Sphere: its own
+  std::vector<std::array<std::array<float, 2>, 3>> corners;  ///< Mesh: u, v of the corners of each triangle
 };
 
 /// Light of a surface: one spectrum, or a picture whose pixels mix several.
@@ -127,6 +150,8 @@ struct Mesh {
   std::string file;
   std::vector<std::array<float, 3>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from the side that reflects
+  /// Texture coordinates of the corners of each triangle, until a texture takes them; none where the file lacks some.
+  std::vector<std::array<std::array<float, 2>, 3>> corners;
   Surface surface;
   int dropped = 0;  ///< triangles of no area or with a coordinate that is no number, left out
 };
@@ -157,6 +182,7 @@ struct Scene {
   std::vector<UltravioletSamples> ultraviolet;
   std::vector<spectral::FluorescentSamples> fluorescences;
   std::vector<Material> materials;
+  std::vector<Texture> textures;
   std::vector<EmitterPicture> pictures;
   std::vector<Rectangle> rectangles;
   std::vector<Sphere> spheres;
