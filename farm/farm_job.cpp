@@ -33,7 +33,7 @@ void writeTogether(const std::vector<JobText>& texts, const std::filesystem::pat
   std::deque<spectral::PendingFile> pending;
   std::vector<spectral::PendingFile*> files;
   for (const JobText& text : texts) {
-    pending.emplace_back(folder / text.name).write(text.text);
+    pending.emplace_back(folder / spectral::pathOf(text.name)).write(text.text);
     files.push_back(&pending.back());
   }
   const spectral::SignalsWait untilAllAreThere;
