@@ -105,7 +105,12 @@ void fitFluorescence(const std::string& file, const std::string& output, const s
     throw spectral::InputError(file, "form", "compact", "is what a fit makes; give a matrix");
   }
   note(matrix->notes());
-  const spectral::FluorescenceFit fit = spectral::fitFluorescence(*matrix);
+  spectral::FitColours colours{library.observer("CIE 1931 2").onDomain(), {}};
+  for (const std::string& name : lights) {
+    Judge(library, name);  // refuses what shows no colours
+    colours.lights.push_back(spectral::onExcitation(library.illuminant(name)));
+  }
+  const spectral::FluorescenceFit fit = spectral::fitFluorescence(*matrix, colours);
   const FluorescentSamples whole = spectral::samplesOf(*matrix);
   const FluorescentSamples compact = spectral::samplesOf(fit.surface);
   std::string differences;

@@ -140,4 +140,13 @@ Eigen::Vector3d colourOf(const FluorescentSamples& surface, const ExcitationSamp
   return curves.transpose() * surface.givenBack(light).tail<kDomainSize>() / white;
 }
 
+double integralOf(const Spectrum& spectrum) {
+  const std::vector<double>& nm = spectrum.wavelengthsNm();
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < nm.size(); ++i) {
+    sum += 0.5 * (nm[i + 1] - nm[i]) * (spectrum.values()[i] + spectrum.values()[i + 1]);
+  }
+  return sum;
+}
+
 }  // namespace metamer::spectral

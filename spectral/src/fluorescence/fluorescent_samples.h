@@ -11,4 +11,7 @@ ExcitationSamples photonsShifted(const FluorescentSamples& surface);
 /// Lowers reflectance (and, where rounding asks for it, re-radiation) to what leaves no more photons than arrive.
 void keepBalance(FluorescentSamples& surface);
 
+/// Of a spectrum, linear between its wavelengths.
+double integralOf(const Spectrum& spectrum);
+
 }  // namespace metamer::spectral

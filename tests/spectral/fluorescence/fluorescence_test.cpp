@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/formatted.h"
 #include "metamer/spectral/spectral_picture.h"
 #include "spectral/fluorescence/made_matrix.h"
@@ -58,6 +63,59 @@ TEST(FluorescenceTest, FitSaysWhatRankOneLeaves) {
   EXPECT_EQ(none.residual, 0.0);
   EXPECT_EQ(none.surface.quantumYield, 0.0);
   EXPECT_EQ(samplesOf(none.surface).perNm.maxCoeff(), 0.0);
+}
+
+/// A dye whose emission follows its excitation a little, as dyes in a solid do, beside a brightener.
+Reradiation edgeMatrix(double follows) {
+  Eigen::MatrixXd factors = madeFactors({MadeDye{360, 440, 0.5}});
+  const std::vector<double> nm = madeBands();
+  for (Eigen::Index i = 0; i < factors.cols(); ++i) {
+    const double from = nm[static_cast<std::size_t>(i)];
+    const MadeDye dye{510, 585 + follows * (from - 510), 0.7};
+    double photons = 0;
+    for (const double to : nm) {
+      photons += dye.given(to);
+    }
+    factors(i, i) = std::max(factors(i, i) - dye.taken(from), 0.05);
+    for (Eigen::Index o = i + 1; o < factors.rows(); ++o) {
+      const double to = nm[static_cast<std::size_t>(o)];
+      factors(o, i) += dye.yield * 0.6 * dye.taken(from) * dye.given(to) / photons * from / to;
+    }
+  }
+  return {"edge", nm, nm, 0.9 * factors};
+}
+
+TEST(FluorescenceTest, FitLooksLikeItsMatrixUnderFiveLights) {
+  FitColours colours{testLibrary().observer("CIE 1931 2").onDomain(), {}};
+  for (const char* const light : {"D65", "A", "FL11", "HP1", "LED-RGB1"}) {
+    colours.lights.push_back(onExcitation(testLibrary().illuminant(light)));
+  }
+  const auto differenceOf = [&](const Reradiation& matrix, const FluorescenceFit& fit) {
+    double largest = 0;
+    for (const ExcitationSamples& light : colours.lights) {
+      const Eigen::Vector3d white = colours.curves.transpose() * light.tail<kDomainSize>();
+      const auto labOf = [&](const FluorescentSamples& surface) {
+        return lab(colourOf(surface, light, colours.curves), white / white.y());
+      };
+      largest = std::max(largest, deltaE2000(labOf(samplesOf(fit.surface)), labOf(samplesOf(matrix))));
+    }
+    return largest;
+  };
+  const Reradiation one = madeMatrix();
+  // What is near by least squares stays as it is.
+  EXPECT_EQ(fitFluorescence(one, colours).residual, fitFluorescence(one).residual);
+  double before = 0;
+  for (const double follows : {0.0, 0.1, 0.2}) {
+    const Reradiation matrix = edgeMatrix(follows);
+    const FluorescenceFit nearest = fitFluorescence(matrix);
+    const FluorescenceFit fit = fitFluorescence(matrix, colours);
+    std::printf("two dyes, emission follows by %.1f: CIEDE2000 %.2f -> %.2f, rms left %.2f -> %.2f\n", follows,
+                differenceOf(matrix, nearest), differenceOf(matrix, fit), nearest.residual, fit.residual);
+    EXPECT_LE(differenceOf(matrix, fit), 0.5);
+    EXPECT_LE(samplesOf(fit.surface).mostPhotons(), 1.0 + 1e-9);
+    before = std::max(before, differenceOf(matrix, nearest));
+  }
+  EXPECT_GT(before, 0.8);
 }
 
 TEST(FluorescenceTest, CompactFormComesBackFromItsFile) {

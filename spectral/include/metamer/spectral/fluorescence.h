@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "metamer/spectral/reradiation.h"
 #include "metamer/spectral/spectral_picture.h"
@@ -38,6 +39,18 @@ struct FluorescenceFit {
   double residual = 0;  ///< rms of what is left of the re-radiation over its rms, by band; 0 without any
 };
 FluorescenceFit fitFluorescence(const Reradiation& matrix);
+
+/// How a fit is to look.
+struct FitColours {
+  Eigen::Matrix<double, kDomainSize, 3> curves;  ///< of an observer
+  std::vector<ExcitationSamples> lights;         ///< each seen by all three curves
+  double mostDifference = 0.5;                   ///< CIEDE2000 from the matrix under the light where it is largest
+};
+
+/// The compact form nearest to a matrix among those that look like it. Where the nearest of all differs by more, errors
+/// of emission and of excitation that colours do not show are counted for less and less, until what is left of the
+/// others is small enough; where that is nowhere, the one that looks most like it.
+FluorescenceFit fitFluorescence(const Reradiation& matrix, const FitColours& colours);
 
 using Fluorescence = std::variant<Reradiation, CompactFluorescence>;
 FluorescentSamples samplesOf(const Fluorescence& surface);
