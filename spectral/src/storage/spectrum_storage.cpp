@@ -286,7 +286,7 @@ DomainSamples SpectrumStorage::unpacked(const StoredSpectrum& stored) const {
       if (numbers.isZero(0.0)) {
         return DomainSamples::Zero();
       }
-      const DomainSamples samples = stored.isLight ? positiveSignal(numbers, phases) : boundedSignal(numbers, phases);
+      DomainSamples samples = stored.isLight ? positiveSignal(numbers, phases) : boundedSignal(numbers, phases);
       if (!samples.allFinite()) {
         refuse("numbers", std::to_string(count), "are the moments of no spectrum; store it again");
       }

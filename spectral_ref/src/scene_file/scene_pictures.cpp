@@ -75,6 +75,7 @@ EmitterPicture spectralPicture(const Pixels& pixels, const std::vector<std::pair
   picture.width = pixels.width;
   picture.height = pixels.height;
   std::vector<double> wavelengths;
+  wavelengths.reserve(channels.size());
   for (const auto& [nm, channel] : channels) {
     wavelengths.push_back(nm);
   }

@@ -64,8 +64,9 @@ void readChart(const YamlValue& place, const YamlMap& shape, SceneSpectra& spect
   const int count = static_cast<int>(patches.size());
   const int rows = (count + columns - 1) / columns;
   for (int i = 0; i < count; ++i) {
+    const int row = i / columns;
     const double u = (2.0 * (i % columns) + 1.0) / columns - 1.0;
-    const double v = 1.0 - (2.0 * (i / columns) + 1.0) / rows;
+    const double v = 1.0 - (2.0 * row + 1.0) / rows;
     Rectangle patch;
     patch.center = board.center + u * board.halfU + v * board.halfV;
     patch.halfU = board.halfU * ((1.0 - gap) / columns);

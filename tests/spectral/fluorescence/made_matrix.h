@@ -16,9 +16,9 @@ inline double dyeBand(double nm, double peakNm, double widthNm, double skew) {
 
 /// Bands 300, 310, ... 780 nm.
 inline std::vector<double> madeBands() {
-  std::vector<double> nm;
-  for (int k = 0; k < 49; ++k) {
-    nm.push_back(300.0 + 10.0 * k);
+  std::vector<double> nm(49);
+  for (std::size_t k = 0; k < nm.size(); ++k) {
+    nm[k] = 300.0 + 10.0 * static_cast<double>(k);
   }
   return nm;
 }
