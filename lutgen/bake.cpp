@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -140,7 +141,8 @@ void convert(const BakeArguments& arguments, const ocio::LutFormat& format) {
   if (!arguments.toStdout && spectral::isStream(spectral::pathOf(arguments.output))) {
     standardOutput();
   }
-  const std::vector<std::filesystem::path> luts(arguments.luts.begin(), arguments.luts.end());
+  std::vector<std::filesystem::path> luts;
+  std::transform(arguments.luts.begin(), arguments.luts.end(), std::back_inserter(luts), spectral::pathOf);
   const std::string text = ocio::convertedLuts(luts, format, arguments.size, arguments.shaperSize);
   if (arguments.toStdout) {
     standardOutput() << text;

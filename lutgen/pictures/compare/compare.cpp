@@ -259,7 +259,7 @@ class Comparer {
 
 /// A file for text; none where it is not asked for.
 std::unique_ptr<spectral::PendingFile> pendingFor(const std::string& file) {
-  return file.empty() ? nullptr : std::make_unique<spectral::PendingFile>(file);
+  return file.empty() ? nullptr : std::make_unique<spectral::PendingFile>(spectral::pathOf(file));
 }
 
 void writeText(const std::unique_ptr<spectral::PendingFile>& file, const std::string& text) {

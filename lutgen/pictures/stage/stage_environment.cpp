@@ -157,11 +157,11 @@ void drive(const EnvironmentOptions& options) {
   const stage::LatLong layout = environment.layout();
   std::unique_ptr<LightList> lights;
   if (!options.lights.empty()) {
-    lights = std::make_unique<LightList>(options.lights, layout);
+    lights = std::make_unique<LightList>(spectral::pathOf(options.lights), layout);
   }
   std::unique_ptr<DrivePicture> output;
   if (!options.output.empty()) {
-    output = std::make_unique<DrivePicture>(options.output, layout, stage.names);
+    output = std::make_unique<DrivePicture>(spectral::pathOf(options.output), layout, stage.names);
   }
   Progress progress("environment", options.progress);
   Eigen::Matrix3Xf rgb;

@@ -99,7 +99,7 @@ void run(const ValidateArguments& arguments) {
   // The place first: what cannot be written is not worth the renders.
   std::optional<spectral::PendingFile> file;
   if (!arguments.json.empty()) {
-    file.emplace(arguments.json);
+    file.emplace(spectral::pathOf(arguments.json));
   }
   const validation::Validation result = validation::validate(recipe, library, arguments.options);
   nlohmann::ordered_json json;

@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <cstddef>
+#include <cstring>
 
 #include "metamer/spectral/vector_lanes.h"
 
@@ -12,19 +13,18 @@ namespace {
 // Dimensions that are worked on at once: the functions below take one number or so many.
 #ifdef __GNUC__
 using Several = std::uint32_t __attribute__((vector_size(Sampler::kSetSize * sizeof(std::uint32_t))));
-/// The same at any place in memory.
-using SeveralAnywhere = Several __attribute__((aligned(4), may_alias));
 #else
 using Several = std::uint32_t;
-using SeveralAnywhere = Several;
 #endif
 constexpr std::size_t kParts = Sampler::kSetSize * sizeof(std::uint32_t) / sizeof(Several);
 
-METAMER_ALWAYS_INLINE const SeveralAnywhere* severalOf(const std::uint32_t* numbers) {
-  return reinterpret_cast<const SeveralAnywhere*>(numbers);  // NOLINT
+/// Parts of numbers, which may lie anywhere in memory. (By reference: vectors as results have another ABI for each
+/// instruction set.)
+METAMER_ALWAYS_INLINE void take(const std::uint32_t* numbers, std::size_t part, Several& several) {
+  std::memcpy(&several, numbers + part * (sizeof(Several) / sizeof(std::uint32_t)), sizeof several);
 }
-METAMER_ALWAYS_INLINE SeveralAnywhere* severalOf(std::uint32_t* numbers) {
-  return reinterpret_cast<SeveralAnywhere*>(numbers);  // NOLINT
+METAMER_ALWAYS_INLINE void put(const Several& several, std::uint32_t* numbers, std::size_t part) {
+  std::memcpy(numbers + part * (sizeof(Several) / sizeof(std::uint32_t)), &several, sizeof several);
 }
 
 template <typename Bits>
@@ -165,9 +165,11 @@ METAMER_ALWAYS_INLINE void shuffle(Bits& index, const Bits& seed) {
 METAMER_VECTOR_LANES void makeSeeds(Sampler::Seeds* const* sets, std::size_t count) {
   for (std::size_t n = 0; n < count; ++n) {
     for (std::size_t i = 0; i < kParts; ++i) {
-      Several bits = severalOf(kCounters.data())[i] + sets[n]->index;
+      Several bits;
+      take(kCounters.data(), i, bits);
+      bits += sets[n]->index;
       mix32(bits);
-      severalOf(sets[n]->dimensions.data())[i] = bits;
+      put(bits, sets[n]->dimensions.data(), i);
     }
   }
 }
@@ -183,9 +185,12 @@ METAMER_VECTOR_LANES void makePoints(const Sampler::Order* orders, std::size_t c
   }
   constexpr std::size_t kIndexParts = Sampler::kMostTogether * sizeof(std::uint32_t) / sizeof(Several);
   for (std::size_t i = 0; i < kIndexParts; ++i) {
-    Several several = severalOf(indices.data())[i];
-    shuffle<Several>(several, severalOf(shuffles.data())[i]);
-    severalOf(indices.data())[i] = several;
+    Several several;
+    Several seeds;
+    take(indices.data(), i, several);
+    take(shuffles.data(), i, seeds);
+    shuffle<Several>(several, seeds);
+    put(several, indices.data(), i);
   }
   for (std::size_t n = 0; n < count; ++n) {
     const Sampler::Seeds& seeds = *orders[n].seeds;
@@ -193,7 +198,9 @@ METAMER_VECTOR_LANES void makePoints(const Sampler::Order* orders, std::size_t c
     std::uint32_t index = indices[n];
     const auto add = [&](std::size_t digit, std::uint32_t value) {
       for (std::size_t i = 0; i < kParts; ++i) {
-        bits[i] ^= severalOf(kDigits[digit][value % kDigitValues].data())[i];
+        Several digits;
+        take(kDigits[digit][value % kDigitValues].data(), i, digits);
+        bits[i] ^= digits;
       }
     };
     // Those of the shuffled bits without asking which are zero.
@@ -205,9 +212,10 @@ METAMER_VECTOR_LANES void makePoints(const Sampler::Order* orders, std::size_t c
       add(digit, index);
     }
     for (std::size_t i = 0; i < kParts; ++i) {
-      const Several seed = severalOf(seeds.dimensions.data())[i];
+      Several seed;
+      take(seeds.dimensions.data(), i, seed);
       scramble(bits[i], seed);
-      severalOf(orders[n].set->bits.data())[i] = bits[i];
+      put(bits[i], orders[n].set->bits.data(), i);
     }
   }
 }
