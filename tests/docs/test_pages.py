@@ -113,7 +113,14 @@ class Pages(unittest.TestCase):
                     self.assertNotRegex(text, r"(?m)^(\$ )?(lutgen|spectral_ref|script/) ", page.name)
 
 
+# apply.md names spaces of OpenColorIO's own configs, which 2.1 does not have.
+VERSION = subprocess.run([Path(os.environ["METAMER_BIN"]) / "lutgen", "--version"], capture_output=True, text=True, check=True).stdout
+NEEDS_OWN_CONFIGS = {"apply.md"} if "OpenColorIO 2.1" in VERSION else set()
+
+
 def of_page(page):
+    if page.name in NEEDS_OWN_CONFIGS:
+        return unittest.skip("the linked OpenColorIO has no config of its own")(lambda self: None)
     return lambda self: self.run_page(page)
 
 

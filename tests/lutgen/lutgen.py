@@ -23,6 +23,10 @@ def lutgen(*arguments, folder=None, environment=None):
     return run
 
 
+# Of the OpenColorIO that lutgen is linked with, 2.1 or newer: (major, minor).
+LINKED = tuple(int(part) for part in lutgen("--version").stdout.split("OpenColorIO ")[1].split(")")[0].split(".")[:2])
+
+
 class LutgenTest(unittest.TestCase):
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()

@@ -4,29 +4,19 @@
 import json
 import os
 import shutil
-import subprocess
 import unittest
 from pathlib import Path
 
 import numpy as np
 import PyOpenColorIO as ocio
 
-from lutgen import LUTGEN, LutgenTest
+from lutgen import LINKED, LutgenTest
 from test_pictures import RECIPE, ramp, read, write
 
 FILES = Path(__file__).with_name("files")
 # The quickest: which configs are opened depends neither on the scene nor on the size.
 DAY_TO_TUNGSTEN = ["--illuminant-in", "D65", "--illuminant-out", "A", "--scene", "smooth", "--size", "9"]
 STUDIO = "studio-config-latest"
-
-
-def linked_version():
-    """Of the OpenColorIO that lutgen is linked with: (major, minor)."""
-    run = subprocess.run([LUTGEN, "--version"], capture_output=True, text=True, check=True)
-    return tuple(int(part) for part in run.stdout.split("OpenColorIO ")[1].split(".")[:2])
-
-
-LINKED = linked_version()
 
 
 class ConfigOfTheShell(LutgenTest):

@@ -13,7 +13,7 @@ import unittest
 import numpy as np
 from PIL import Image, ImageCms
 
-from lutgen import LUTGEN, LutgenTest, lutgen
+from lutgen import LINKED, LUTGEN, LutgenTest, lutgen
 
 LIGHTS = ["--illuminant-in", "D65", "--illuminant-out", "A", "--scene", "smooth", "--size", "5"]
 RECIPE = """metamer: 1
@@ -196,6 +196,7 @@ colorspaces:
 class Libraries(LutgenTest):
     """What OpenColorIO and OpenImageIO say, or would do, behind a door: one line, with the reason alone."""
 
+    @unittest.skipIf(LINKED < (2, 5), "the linked OpenColorIO follows spaces that lead back to themselves for ever")
     def test_configs_that_lead_nowhere(self):
         (self.folder / "luts").mkdir()
         (self.folder / "luts" / "zero.ctf").write_text(

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from lutgen import LutgenTest
+from lutgen import LINKED, LutgenTest
 from test_compare import write_exr
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -148,6 +148,7 @@ class Report(LutgenTest):
         self.assertLess(abs(pictures[1] - applied).mean(), 2)
         self.assertGreater(abs(pictures[1] - shown).mean(), 10)
 
+    @unittest.skipIf(LINKED < (2, 5), "the linked OpenColorIO has ACES 1, which rolls off later")
     def test_scenes_roll_off(self):
         """Light beyond a screen's white is told apart."""
         grey = np.repeat(np.repeat(np.float32([[0.18, 1, 2, 8]]), 16, 0), 16, 1)
