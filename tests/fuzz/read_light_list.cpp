@@ -5,7 +5,7 @@
 #include <string>
 
 #include "refusal.h"
-#include "stage/light_list.h"
+#include "stage_pictures/light_list.h"
 
 /// Whatever the bytes are, they are lights each with a direction, or one short line of error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,8 +3,8 @@
 
 #include "metamer/spectral/formatted.h"
 #include "metamer/stage/chart_difference.h"
-#include "stage/chart_figure.h"
 #include "stage/skin_report.h"
+#include "stage_pictures/chart_figure.h"
 
 namespace metamer::lutgen {
 namespace {

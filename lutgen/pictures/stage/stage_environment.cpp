@@ -19,13 +19,13 @@
 #include "metamer/stage/patch_names.h"
 #include "positive_number.h"
 #include "progress.h"
-#include "stage/chart_picture.h"
-#include "stage/drive_picture.h"
-#include "stage/environment_picture.h"
 #include "stage/fixture_options.h"
-#include "stage/light_list.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
+#include "stage_pictures/chart_picture.h"
+#include "stage_pictures/drive_picture.h"
+#include "stage_pictures/environment_picture.h"
+#include "stage_pictures/light_list.h"
 
 namespace metamer::lutgen {
 namespace {

@@ -13,12 +13,12 @@
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/stage/capture_faults.h"
 #include "metamer/stage/skin_priority.h"
-#include "stage/chart_picture.h"
 #include "stage/fixture_options.h"
 #include "stage/match_answer.h"
 #include "stage/match_report.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
+#include "stage_pictures/chart_picture.h"
 
 namespace metamer::lutgen {
 namespace {

@@ -13,7 +13,7 @@
 #include "run.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_skeleton.h"
-#include "stage/wall_patterns.h"
+#include "stage_pictures/wall_patterns.h"
 
 namespace metamer::lutgen {
 namespace {

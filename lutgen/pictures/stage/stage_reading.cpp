@@ -4,9 +4,9 @@
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
-#include "stage/chart_picture.h"
-#include "stage/environment_picture.h"
 #include "stage/fixture_options.h"
+#include "stage_pictures/chart_picture.h"
+#include "stage_pictures/environment_picture.h"
 
 namespace metamer::lutgen {
 namespace {

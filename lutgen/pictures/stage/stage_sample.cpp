@@ -14,9 +14,9 @@
 #include "metamer/stage/emitter_model.h"
 #include "metamer/stage/panel_eotf.h"
 #include "positive_number.h"
-#include "stage/chart_picture.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
+#include "stage_pictures/chart_picture.h"
 
 namespace metamer::lutgen {
 namespace {

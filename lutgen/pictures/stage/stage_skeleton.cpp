@@ -4,7 +4,7 @@
 #include <array>
 
 #include "metamer/spectral/formatted.h"
-#include "stage/wall_patterns.h"
+#include "stage_pictures/wall_patterns.h"
 
 namespace metamer::lutgen {
 namespace {

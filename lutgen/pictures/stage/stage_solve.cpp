@@ -8,12 +8,12 @@
 #include "metamer/spectral/naming_file.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/pending_file.h"
-#include "stage/chart_figure.h"
 #include "stage/fixture_options.h"
 #include "stage/stage_commands.h"
 #include "stage/stage_json.h"
 #include "stage/stage_reading.h"
 #include "stage/stage_report.h"
+#include "stage_pictures/chart_figure.h"
 
 namespace metamer::lutgen {
 namespace {

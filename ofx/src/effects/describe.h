@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "device/devices.h"
+#include "drivers/devices.h"
 #include "effects/effect.h"
 #include "host/host.h"
 

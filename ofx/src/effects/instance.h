@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "device/devices.h"
+#include "drivers/devices.h"
 #include "effects/effect.h"
 #include "host/host.h"
 #include "host/message.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "device/devices.h"
+#include "drivers/devices.h"
 #include "effects/catalogue.h"
 #include "effects/effect.h"
 #include "host/host.h"

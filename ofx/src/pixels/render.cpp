@@ -227,7 +227,7 @@ int firstRow(FieldToRender field, const OfxRectI& window) {
 
 void render(const HostSuites& host, const RenderJob& given, const std::function<bool()>& isAborted) {
   const OfxRectI window = given.output.data == nullptr ? OfxRectI{} : intersection(given.window, given.output.bounds);
-  if (isEmpty(window)) {
+  if (isEmpty(window) || isAborted()) {
     return;
   }
   RenderJob job = given;

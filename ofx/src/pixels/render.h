@@ -35,7 +35,7 @@ struct RenderJob {
 /// result does not depend on their number, on the window, or on where a row begins.
 ///
 /// Outside the source's bounds pixels are transparent black, outside the mask's the mask is 0. `isAborted` is polled
-/// from one thread; what is not yet rendered is then left as it was.
+/// from one thread, before anything else and between rows; what is not yet rendered is then left as it was.
 void render(const HostSuites& host, const RenderJob& job, const std::function<bool()>& isAborted);
 
 }  // namespace metamer::ofx

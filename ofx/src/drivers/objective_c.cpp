@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/objective_c.h"
+#include "drivers/objective_c.h"
 
-#include "device/system_library.h"
+#include "drivers/system_library.h"
 
 namespace metamer::ofx {
 namespace {

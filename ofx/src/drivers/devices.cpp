@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/devices.h"
+#include "drivers/devices.h"
 
 #include <array>
 
-#include "device/cuda_interface.h"
-#include "device/metal_interface.h"
-#include "device/opencl_interface.h"
+#include "drivers/cuda_interface.h"
+#include "drivers/metal_interface.h"
+#include "drivers/opencl_interface.h"
 #include "host/device_properties.h"
 
 namespace metamer::ofx {

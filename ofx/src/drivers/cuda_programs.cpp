@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/cuda_programs.h"
+#include "drivers/cuda_programs.h"
 
 #include "device/window_text.h"
 

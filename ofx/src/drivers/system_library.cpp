@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/system_library.h"
+#include "drivers/system_library.h"
 
 #include "metamer/spectral/platform.h"
 

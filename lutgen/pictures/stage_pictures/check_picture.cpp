@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/check_picture.h"
+#include "stage_pictures/check_picture.h"
 
 #include <OpenImageIO/imagebufalgo.h>
 

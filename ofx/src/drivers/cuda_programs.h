@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "device/cuda.h"
 #include "device/recently_used.h"
+#include "drivers/cuda.h"
 
 namespace metamer::ofx {
 

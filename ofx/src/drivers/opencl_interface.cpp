@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/opencl_interface.h"
+#include "drivers/opencl_interface.h"
 
 #include <algorithm>
 #include <array>
 
 #include "device/buffer_image.h"
-#include "device/loaded_interface.h"
-#include "device/opencl_programs.h"
 #include "device/window_launch.h"
+#include "drivers/loaded_interface.h"
+#include "drivers/opencl_programs.h"
 
 namespace metamer::ofx {
 namespace {

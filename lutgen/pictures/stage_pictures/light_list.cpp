@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/light_list.h"
+#include "stage_pictures/light_list.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/metal_programs.h"
+#include "drivers/metal_programs.h"
 
 #include <algorithm>
 

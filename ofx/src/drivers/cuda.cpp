@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/cuda.h"
+#include "drivers/cuda.h"
 
-#include "device/system_library.h"
+#include "drivers/system_library.h"
 
 namespace metamer::ofx {
 namespace {

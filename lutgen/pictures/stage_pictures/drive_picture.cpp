@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/drive_picture.h"
+#include "stage_pictures/drive_picture.h"
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"

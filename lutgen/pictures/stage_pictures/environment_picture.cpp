@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/environment_picture.h"
+#include "stage_pictures/environment_picture.h"
 
 #include <algorithm>
 #include <cmath>

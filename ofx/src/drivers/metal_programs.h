@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "device/objective_c.h"
 #include "device/recently_used.h"
+#include "drivers/objective_c.h"
 
 namespace metamer::ofx {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/opencl_programs.h"
+#include "drivers/opencl_programs.h"
 
 #include <algorithm>
 

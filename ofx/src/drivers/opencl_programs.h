@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "device/opencl.h"
 #include "device/recently_used.h"
+#include "drivers/opencl.h"
 
 namespace metamer::ofx {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/metal_interface.h"
+#include "drivers/metal_interface.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "device/buffer_image.h"
-#include "device/loaded_interface.h"
-#include "device/metal_programs.h"
 #include "device/window_launch.h"
+#include "drivers/loaded_interface.h"
+#include "drivers/metal_programs.h"
 
 namespace metamer::ofx {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "device/cuda_interface.h"
+#include "drivers/cuda_interface.h"
 
 #include <array>
 #include <optional>
 
 #include "device/buffer_image.h"
-#include "device/cuda_programs.h"
-#include "device/loaded_interface.h"
 #include "device/window_launch.h"
+#include "drivers/cuda_programs.h"
+#include "drivers/loaded_interface.h"
 
 namespace metamer::ofx {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/wall_patterns.h"
+#include "stage_pictures/wall_patterns.h"
 
 #include <OpenImageIO/imagebufalgo.h>
 

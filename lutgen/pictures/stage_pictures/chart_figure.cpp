@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/chart_figure.h"
+#include "stage_pictures/chart_figure.h"
 
 #include <OpenImageIO/imagebufalgo.h>
 

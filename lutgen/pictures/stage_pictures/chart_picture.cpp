@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stage/chart_picture.h"
+#include "stage_pictures/chart_picture.h"
 
 #include "metamer/spectral/input_error.h"
 #include "metamer/spectral/path_text.h"
 #include "metamer/spectral/spectral_files.h"
 #include "metamer/spectral/text.h"
 #include "picture.h"
-#include "stage/check_picture.h"
+#include "stage_pictures/check_picture.h"
 
 namespace metamer::lutgen {
 namespace {
