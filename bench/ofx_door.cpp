@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bare_host.h"
-#include "device_host.h"
+#include "devices/device_host.h"
 
 namespace {
 
