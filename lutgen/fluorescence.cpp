@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fluorescence.h"
 
+#include <cstddef>
+#include <vector>
+
 #include "library.h"
 #include "metamer/spectral/colorimetry.h"
 #include "metamer/spectral/data_library.h"
@@ -33,6 +36,7 @@ class Judge {
     m_white /= m_white.y();
   }
 
+  const ExcitationSamples& light() const { return m_light; }
   Eigen::Vector3d xyz(const FluorescentSamples& surface) const {
     return spectral::colourOf(surface, m_light, m_curves);
   }
@@ -105,19 +109,18 @@ void fitFluorescence(const std::string& file, const std::string& output, const s
     throw spectral::InputError(file, "form", "compact", "is what a fit makes; give a matrix");
   }
   note(matrix->notes());
+  std::vector<Judge> judges;
   spectral::FitColours colours{library.observer("CIE 1931 2").onDomain(), {}};
   for (const std::string& name : lights) {
-    Judge(library, name);  // refuses what shows no colours
-    colours.lights.push_back(spectral::onExcitation(library.illuminant(name)));
+    colours.lights.push_back(judges.emplace_back(library, name).light());
   }
   const spectral::FluorescenceFit fit = spectral::fitFluorescence(*matrix, colours);
   const FluorescentSamples whole = spectral::samplesOf(*matrix);
   const FluorescentSamples compact = spectral::samplesOf(fit.surface);
   std::string differences;
-  for (const std::string& name : lights) {
-    const Judge judge(library, name);
-    differences += formatted("%s%s %.3f", differences.empty() ? "" : ", ", name.c_str(),
-                             spectral::deltaE2000(judge.lab(whole), judge.lab(compact)));
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    differences += formatted("%s%s %.3f", differences.empty() ? "" : ", ", lights[k].c_str(),
+                             spectral::deltaE2000(judges[k].lab(whole), judges[k].lab(compact)));
   }
   spectral::writeWholeFile(spectral::pathOf(output), spectral::fluorescenceText(fit.surface));
   summarise(formatted("%s: quantum yield %.3f; %.1f %% of the re-radiation's rms is left; CIEDE2000 under %s",

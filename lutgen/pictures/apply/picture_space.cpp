@@ -153,10 +153,7 @@ PixelFunction between(const spectral::RgbSpace& from, const spectral::RgbSpace& 
   if (isSame(from, to)) {
     return {};
   }
-  const Eigen::Matrix3f matrix =
-      (to.rgbFromXyz() * adaptXyz(spectral::ChromaticAdaptation::Bradford, from.whiteXyz(), to.whiteXyz()) *
-       from.xyzFromRgb())
-          .cast<float>();
+  const Eigen::Matrix3f matrix = spectral::adaptRgb(spectral::ChromaticAdaptation::Bradford, from, to).cast<float>();
   return [matrix](std::span<float> rgba) {
     for (std::size_t i = 0; i + 3 < rgba.size(); i += 4) {
       const float r = rgba[i];

@@ -36,8 +36,7 @@ spectral::RgbSpace display() {
 }
 
 Eigen::Matrix3d between(const spectral::RgbSpace& from, const spectral::RgbSpace& to) {
-  return to.rgbFromXyz() * spectral::adaptXyz(spectral::ChromaticAdaptation::Bradford, from.whiteXyz(), to.whiteXyz()) *
-         from.xyzFromRgb();
+  return spectral::adaptRgb(spectral::ChromaticAdaptation::Bradford, from, to);
 }
 
 /// 8-bit code of a display, without rounding.

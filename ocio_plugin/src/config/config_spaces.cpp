@@ -140,7 +140,7 @@ Eigen::Matrix3d acesFromLinear(const spectral::RgbSpace& space, const spectral::
   }
   const ConfigSpace* entry = spaceOf(space.name);
   const Cat cat = entry != nullptr ? entry->cat : Cat::Bradford;
-  return aces.rgbFromXyz() * spectral::adaptXyz(cat, space.whiteXyz(), aces.whiteXyz()) * space.xyzFromRgb();
+  return spectral::adaptRgb(cat, space, aces);
 }
 
 }  // namespace metamer::ocio

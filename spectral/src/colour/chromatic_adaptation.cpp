@@ -79,4 +79,8 @@ Eigen::Matrix3d adaptXyz(ChromaticAdaptation method, const Eigen::Vector3d& sour
   return toLms.inverse() * destination.cwiseQuotient(source).asDiagonal() * toLms;
 }
 
+Eigen::Matrix3d adaptRgb(ChromaticAdaptation method, const RgbSpace& source, const RgbSpace& destination) {
+  return destination.rgbFromXyz() * adaptXyz(method, source.whiteXyz(), destination.whiteXyz()) * source.xyzFromRgb();
+}
+
 }  // namespace metamer::spectral

@@ -63,10 +63,11 @@ void giveUpBesideDiagonal(const FluorescentSamples& whole, double stepNm, Compac
   surface.reflectance = {surface.name, SpectralQuantity::Reflectance, surface.reflectance.wavelengthsNm(), reflectance};
 }
 
-FluorescenceFit compactOf(const Reradiation& matrix, const ShiftedFactors& shifted, const RankOne& fit) {
+/// @param whole  samples of the matrix
+FluorescenceFit compactOf(const Reradiation& matrix, const FluorescentSamples& whole, const ShiftedFactors& shifted,
+                          const RankOne& fit) {
   // From energy to photons: u(o) v(i) = step y(i) e(o) i / o, with y the photons given off for each that arrives.
   const std::vector<double> nm = wavelengthsOf(matrix);
-  const FluorescentSamples whole = samplesOf(matrix);
   std::vector<double> reflectance;
   std::vector<double> photonsGiven(nm.size(), 0.0);
   std::vector<double> emission(nm.size(), 0.0);
@@ -168,14 +169,14 @@ Eigen::MatrixX3d curvesAt(const std::vector<double>& emissionNm, const FitColour
 
 FluorescenceFit fitFluorescence(const Reradiation& matrix) {
   const ShiftedFactors shifted = shiftedOf(matrix);
-  return compactOf(matrix, shifted, nearestRankOne(shifted));
+  return compactOf(matrix, samplesOf(matrix), shifted, nearestRankOne(shifted));
 }
 
 FluorescenceFit fitFluorescence(const Reradiation& matrix, const FitColours& colours) {
   const ShiftedFactors shifted = shiftedOf(matrix);
   const FluorescentSamples whole = samplesOf(matrix);
   RankOne rankOne = nearestRankOne(shifted);
-  FluorescenceFit best = compactOf(matrix, shifted, rankOne);
+  FluorescenceFit best = compactOf(matrix, whole, shifted, rankOne);
   double least = largestDifference(samplesOf(best.surface), whole, colours);
   const PhotonBounds bounds = boundsOf(matrix, whole.reflectance);
   const Eigen::MatrixX3d curves = curvesAt(matrix.emissionNm(), colours);
@@ -184,7 +185,7 @@ FluorescenceFit fitFluorescence(const Reradiation& matrix, const FitColours& col
       break;
     }
     rankOne = nearestAsSeen(shifted, rankOne, bounds, curves, unseen);
-    FluorescenceFit fit = compactOf(matrix, shifted, rankOne);
+    FluorescenceFit fit = compactOf(matrix, whole, shifted, rankOne);
     const double difference = largestDifference(samplesOf(fit.surface), whole, colours);
     if (difference < least && fit.residual <= std::max(kMostLeft, best.residual)) {
       least = difference;

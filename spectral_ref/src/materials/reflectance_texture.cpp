@@ -70,7 +70,8 @@ std::array<ReflectanceTexture::Pixel, 4> ReflectanceTexture::pixelsAt(const Hit&
   const Pair row = pairAt(1.0 - v, picture.height, m_texture->wrap == Texture::Wrap::Mesh);
   const auto pixel = [&](std::size_t x, std::size_t y, double weight) {
     const std::size_t index = y * static_cast<std::size_t>(picture.width) + x;
-    return Pixel{picture.values.data() + index * picture.nodesNm.size(), static_cast<float>(weight / 65535.0)};
+    return Pixel{picture.values.data() + index * picture.nodesNm.size(),
+                 static_cast<float>(weight / ReflectancePicture::kLargest)};
   };
   return {pixel(column.first, row.first, (1.0 - column.share) * (1.0 - row.share)),
           pixel(column.second, row.first, column.share * (1.0 - row.share)),

@@ -40,7 +40,7 @@ class ReflectanceTexture {
   /// Of the four about a place.
   struct Pixel {
     const std::uint16_t* values;
-    float weight;  ///< over 65535; all four together one
+    float weight;  ///< over the largest value; all four together one
   };
   /// Of a cell between two nodes.
   struct Place {

@@ -38,16 +38,6 @@ SpectralQuantity quantityOf(Use use) {
   return SpectralQuantity::Reflectance;
 }
 
-/// Runs a look-up and says in its error where in the scene the name stands.
-template <typename Look>
-auto lookUp(const YamlValue& value, const Look& look) {
-  try {
-    return look();
-  } catch (const InputError& error) {
-    throw value.error("", error.what());
-  }
-}
-
 /// The reflectance that a published uplift gives a colour: linear Rec.709, white the perfect reflector under D65.
 ExcitationSamples uplifted(const YamlValue& rgb, const std::optional<YamlValue>& method,
                            const spectral::DataLibrary& library) {

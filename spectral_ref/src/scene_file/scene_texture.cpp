@@ -26,7 +26,6 @@ using Eigen::Index;
 using spectral::SpectralQuantity;
 
 constexpr int kUsualNumbers = 20;
-constexpr double kLargestCode = 65535;
 /// Outside 0 ... 1 beyond rounding.
 constexpr double kSlack = 1e-4;
 
@@ -103,21 +102,14 @@ class UpliftedSpectra : public RowSpectra {
   std::array<int, 3> m_channels{};
 };
 
-/// Samples of the domain from values at wavelengths, linear between them, the ends held.
+/// Samples of the domain from reflectances at wavelengths.
 Eigen::MatrixXd samplesFrom(const std::vector<double>& wavelengthsNm) {
-  const auto count = static_cast<Index>(wavelengthsNm.size());
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(spectral::kDomainSize, count);
-  Index before = 0;
-  for (Index k = 0; k < spectral::kDomainSize; ++k) {
-    const double nm =
-        std::clamp(static_cast<double>(spectral::kDomainStartNm + k), wavelengthsNm.front(), wavelengthsNm.back());
-    while (before + 2 < count && wavelengthsNm[static_cast<std::size_t>(before) + 1] < nm) {
-      ++before;
-    }
-    const auto at = static_cast<std::size_t>(before);
-    const double share = (nm - wavelengthsNm[at]) / (wavelengthsNm[at + 1] - wavelengthsNm[at]);
-    matrix(k, before) = 1 - share;
-    matrix(k, before + 1) = share;
+  Eigen::MatrixXd matrix(spectral::kDomainSize, static_cast<Index>(wavelengthsNm.size()));
+  for (std::size_t k = 0; k < wavelengthsNm.size(); ++k) {
+    std::vector<double> hat(wavelengthsNm.size(), 0.0);
+    hat[k] = 1.0;
+    matrix.col(static_cast<Index>(k)) =
+        spectral::Spectrum("hat", SpectralQuantity::Reflectance, wavelengthsNm, std::move(hat)).onDomain();
   }
   return matrix;
 }
@@ -128,16 +120,6 @@ std::vector<double> nodesOf(const spectral::HatBasis& basis) {
       basis.numbersFromSamples *
       Eigen::VectorXd::LinSpaced(spectral::kDomainSize, spectral::kDomainStartNm, spectral::kDomainEndNm);
   return {nodes.begin(), nodes.end()};
-}
-
-/// What is wrong with a name is said of its value.
-template <typename Give>
-auto named(const YamlValue& value, const Give& give) {
-  try {
-    return give();
-  } catch (const spectral::InputError& error) {
-    throw value.error("", error.what());
-  }
 }
 
 std::unique_ptr<RowSpectra> spectraOf(const YamlMap& section, const Pixels& pixels,
@@ -153,17 +135,15 @@ std::unique_ptr<RowSpectra> spectraOf(const YamlMap& section, const Pixels& pixe
   }
   const auto method = section.find("uplift");
   const std::string name = method ? method->text() : "natural";
-  auto uplift = named(method.value_or(section), [&] { return sip::makeUplift(name, library); });
+  auto uplift = lookUp(method.value_or(section), [&] { return sip::makeUplift(name, library); });
   if (sip::isSceneUplift(name)) {
     uplift = sip::tabulated(std::move(uplift), library.colourSpace("ACES2065-1").linear);
   }
   const spectral::RgbSpace rec709 = library.colourSpace("Rec.709").linear;
   const auto space = section.find("space");
   const spectral::RgbSpace own =
-      space ? named(*space, [&] { return library.colourSpace(space->text()).linear; }) : rec709;
-  const Eigen::Matrix3d toRec709 =
-      rec709.rgbFromXyz() *
-      spectral::adaptXyz(spectral::ChromaticAdaptation::Bradford, own.whiteXyz(), rec709.whiteXyz()) * own.xyzFromRgb();
+      space ? lookUp(*space, [&] { return library.colourSpace(space->text()).linear; }) : rec709;
+  const Eigen::Matrix3d toRec709 = spectral::adaptRgb(spectral::ChromaticAdaptation::Bradford, own, rec709);
   return std::make_unique<UpliftedSpectra>(pixels, std::move(uplift), toRec709);
 }
 
@@ -194,9 +174,9 @@ Material readTexturedDiffuse(const YamlValue& value, Texture place, SceneSpectra
     const Eigen::MatrixXd found = rows->row(y);
     const Eigen::ArrayXXd kept = (numbersFromValues * found).array().max(0.0).min(1.0);
     const auto at = static_cast<std::size_t>(y);
-    std::transform(kept.data(), kept.data() + kept.size(),
-                   picture.values.begin() + static_cast<std::ptrdiff_t>(at * rowSize),
-                   [](double number) { return static_cast<std::uint16_t>(std::lround(kLargestCode * number)); });
+    std::transform(
+        kept.data(), kept.data() + kept.size(), picture.values.begin() + static_cast<std::ptrdiff_t>(at * rowSize),
+        [](double number) { return static_cast<std::uint16_t>(std::lround(ReflectancePicture::kLargest * number)); });
     sums[at] = kept.rowwise().sum();
     for (Index x = 0; x < found.cols(); ++x) {
       outside[at] += found.col(x).minCoeff() < -kSlack || found.col(x).maxCoeff() > 1 + kSlack ? 1 : 0;

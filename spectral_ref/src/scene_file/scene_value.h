@@ -11,6 +11,16 @@ namespace metamer::spectral_ref {
 using spectral::YamlMap;
 using spectral::YamlValue;
 
+/// Runs a look-up and says in its error where in the scene the name stands.
+template <typename Look>
+auto lookUp(const YamlValue& value, const Look& look) {
+  try {
+    return look();
+  } catch (const spectral::InputError& error) {
+    throw value.error("", error.what());
+  }
+}
+
 /// Three numbers, such as a place.
 Vector3 vectorOf(const YamlValue& value);
 

@@ -27,6 +27,17 @@ TEST(ChromaticAdaptationTest, WhiteGoesToWhite) {
   }
 }
 
+TEST(ChromaticAdaptationTest, SpacesAreAdaptedFromWhiteToWhite) {
+  const RgbSpace aces = testLibrary().colourSpace("ACEScg").linear;
+  const RgbSpace rec709 = testLibrary().colourSpace("Rec.709").linear;
+  const Eigen::Matrix3d there = adaptRgb(ChromaticAdaptation::Bradford, aces, rec709);
+  EXPECT_LE((there * Eigen::Vector3d::Ones() - Eigen::Vector3d::Ones()).cwiseAbs().maxCoeff(), 1e-14);
+  // Another colour is another one's numbers, and comes back.
+  EXPECT_GT((there - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 0.1);
+  const Eigen::Matrix3d back = adaptRgb(ChromaticAdaptation::Bradford, rec709, aces);
+  EXPECT_LE((back * there - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-14);
+}
+
 TEST(ChromaticAdaptationTest, Names) {
   for (const char* const name : {"vonkries", "bradford", "cat02", "cat16"}) {
     EXPECT_EQ(nameOf(chromaticAdaptationFromName(name)), name);

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "metamer/spectral/rgb_space.h"
+
 namespace metamer::spectral {
 
 /// The cone-like space in which white is scaled to white.
@@ -25,5 +27,8 @@ Eigen::Matrix3d lmsFromXyz(ChromaticAdaptation method);
 /// Both whites are tristimuli with positive cone response. @throws InputError otherwise
 Eigen::Matrix3d adaptXyz(ChromaticAdaptation method, const Eigen::Vector3d& sourceWhite,
                          const Eigen::Vector3d& destinationWhite);
+
+/// Linear RGB of one space from that of another, full adaptation from white to white. @throws InputError as adaptXyz
+Eigen::Matrix3d adaptRgb(ChromaticAdaptation method, const RgbSpace& source, const RgbSpace& destination);
 
 }  // namespace metamer::spectral

@@ -96,8 +96,9 @@ struct Material {
 struct ReflectancePicture {
   int width = 0;
   int height = 0;
-  std::vector<double> nodesNm;        ///< rising, the first 380, the last 780
-  std::vector<std::uint16_t> values;  ///< height x width x nodes, top row first; 65535 is a reflectance of 1
+  std::vector<double> nodesNm;               ///< rising, the first 380, the last 780
+  static constexpr double kLargest = 65535;  ///< a reflectance of 1
+  std::vector<std::uint16_t> values;         ///< height x width x nodes, top row first
 };
 
 /// A picture on a shape. Between pixels' middles it is bilinear.
